@@ -32,12 +32,12 @@ constexpr double volume_error = 0x1p-45;
 constexpr int most_divisions = 48;
 constexpr int most_intervals = 2000;
 
-struct Corners {
+struct CornerPositions {
     Vec3d at[3];
 };
 
-Corners corners_at(const SeenMotion& motion, double time) noexcept {
-    Corners corners;
+CornerPositions corners_at(const SeenMotion& motion, double time) noexcept {
+    CornerPositions corners;
     for (int i = 0; i < 3; ++i) corners.at[i] = (1 - time) * motion.from[i] + time * motion.to[i];
     return corners;
 }
@@ -46,7 +46,7 @@ double most_of_coordinates(const Vec3d& v) noexcept {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-bool stays_on_one_side(const Corners& begin, const Corners& end) noexcept {
+bool stays_on_one_side(const CornerPositions& begin, const CornerPositions& end) noexcept {
     const Vec3d *a = begin.at, *b = end.at;
     const double first = determinant(a[0], a[1], a[2]);
     if (std::abs(first) <= volume_error) return false;
@@ -61,7 +61,7 @@ bool stays_on_one_side(const Corners& begin, const Corners& end) noexcept {
                 3);
 }
 
-bool is_separated(const Corners& begin, const Corners& end, const Vec3d& axis) noexcept {
+bool is_separated(const CornerPositions& begin, const CornerPositions& end, const Vec3d& axis) noexcept {
     const double error = dot_error * most_of_coordinates(axis);
     for (int i = 0; i < 3; ++i)
         if (!(dot(begin.at[i], axis) > error) || !(dot(end.at[i], axis) > error)) return false;
@@ -70,9 +70,9 @@ bool is_separated(const Corners& begin, const Corners& end, const Vec3d& axis) n
 
 // Whether the two certainly do not meet during an interval.
 bool stay_apart(const SeenMotion& motion, double begin_time, double end_time) noexcept {
-    const Corners begin = corners_at(motion, begin_time), end = corners_at(motion, end_time);
+    const CornerPositions begin = corners_at(motion, begin_time), end = corners_at(motion, end_time);
     if (stays_on_one_side(begin, end)) return true;
-    const Corners middle = corners_at(motion, 0.5 * begin_time + 0.5 * end_time);
+    const CornerPositions middle = corners_at(motion, 0.5 * begin_time + 0.5 * end_time);
     const Vec3d way = closest_seen_from({0, 0, 0}, middle.at[0], middle.at[1], middle.at[2]).way;
     if (is_separated(begin, end, way)) return true;
     // Close to the triangle, rounding errors turn `way` more than the normal.

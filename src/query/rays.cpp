@@ -26,16 +26,16 @@ double volume(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) no
 }
 
 // Where a segment meets a closed triangle. `t` runs from 0 at its beginning to 1 at its end, and is rounded.
-struct Crossing {
+struct RayCrossing {
     double t = infinity; // infinite if it does not
     double weight[3] = {};
     int from_side = 0, to_side = 0; // orientation() of the ends
 };
 
-Crossing find_crossing(const Vec3d& from, const Vec3d& to, const Vec3d& a, const Vec3d& b,
-                       const Vec3d& c) noexcept {
+RayCrossing find_crossing(const Vec3d& from, const Vec3d& to, const Vec3d& a, const Vec3d& b,
+                          const Vec3d& c) noexcept {
     std::uint64_t exact_tests = 0;
-    Crossing crossing;
+    RayCrossing crossing;
     crossing.from_side = orientation(a, b, c, from, exact_tests);
     crossing.to_side = orientation(a, b, c, to, exact_tests);
     if (crossing.from_side == crossing.to_side) return crossing; // both ends on one side, or in its plane
@@ -98,7 +98,8 @@ private:
 
 // A segment and a facet of a tetrahedron.
 template <class Tets>
-Crossing find_crossing(const Vec3d& from, const Vec3d& to, const Tets& tets, const OrderedFacet& f) noexcept {
+RayCrossing find_crossing(const Vec3d& from, const Vec3d& to, const Tets& tets,
+                          const OrderedFacet& f) noexcept {
     return find_crossing(from, to, tets.at(f.vertex[0]), tets.at(f.vertex[1]), tets.at(f.vertex[2]));
 }
 
@@ -119,7 +120,7 @@ double find_entry(const Vec3d& from, const Vec3d& to, const Tets& tets, std::siz
 
 // Whether a segment enters or leaves a tetrahedron through a facet.
 template <class Tets>
-vox_side side_of(const Crossing& crossing, const Tets& tets, std::size_t tet, std::uint32_t facet,
+vox_side side_of(const RayCrossing& crossing, const Tets& tets, std::size_t tet, std::uint32_t facet,
                  const OrderedFacet& f) noexcept {
     std::uint64_t exact_tests = 0;
     const int inside = orientation(tets.at(f.vertex[0]), tets.at(f.vertex[1]), tets.at(f.vertex[2]),
@@ -142,7 +143,7 @@ void Queries::ray_hits(const Vec3d& from, const Vec3d& to, QueryMeshes which, bo
         which, most, bound,
         [&](std::uint32_t leaf, const LeafTets& tets, std::size_t tet, std::uint32_t facet, double least) {
             const OrderedFacet f(tets, tet, facet);
-            const Crossing crossing = find_crossing(from, to, tets, f);
+            const RayCrossing crossing = find_crossing(from, to, tets, f);
             if (!(crossing.t <= 1)) return;
             vox_ray_hit hit{};
             hit.body = meshes_[leaves_[leaf].mesh].id;
