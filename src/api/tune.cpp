@@ -8,7 +8,9 @@
 #include "cell_size/foreign/grid.hpp"
 #include "cell_size/foreign/suggest.hpp"
 
+#include <algorithm>
 #include <cinttypes>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
@@ -31,17 +33,47 @@ struct DescribedGrid {
     DescribedGrid(const DescribedGrid&) = delete;
     DescribedGrid& operator=(const DescribedGrid&) = delete;
 
+    FitSettings fit_settings() const { return {work.least_cell_size(), grid.desc.zone_loss}; }
+
     ForeignGrid grid;
     CallerMemory memory;
     ForeignWork work;
     CostBasis basis;
 };
 
-vox_tune_desc read_tune_desc(const vox_tune_desc* desc) {
-    vox_tune_desc settings{};
-    if (desc) settings = read_struct(desc, "desc");
-    complete(settings);
-    check_tune_desc(settings);
+// The first cell size is that of the desc, or the one suggested, or 0 where no grid is described.
+TuneSettings read_settings(const vox_tune_desc& desc, const FitSettings& fit, double suggested) {
+    TuneSettings settings{
+        fit, desc.max_runs, desc.wanted_loss, desc.first > 0 ? desc.first : suggested, {desc.min, desc.max}};
+    CellSizeRange& range = settings.range;
+    const double first = settings.first, least = fit.least_cell_size;
+    set_default(settings.max_runs, 7u);
+    set_default(settings.wanted_loss, 0.02);
+    const auto at_least_0 = [](const char* name, double value) {
+        if (!(value >= 0) || !std::isfinite(value))
+            refuse(format("desc.%s is %g, expected a finite number of at least 0", name, value));
+    };
+    if (settings.max_runs < 3 || settings.max_runs > VOX_TIMING_CAPACITY)
+        refuse(format("desc.max_runs is %u, expected 3 to %u", desc.max_runs, VOX_TIMING_CAPACITY));
+    at_least_0("min", desc.min);
+    at_least_0("max", desc.max);
+    at_least_0("first", desc.first);
+    at_least_0("wanted_loss", desc.wanted_loss);
+    if ((desc.min > 0) != (desc.max > 0) || desc.min > desc.max)
+        refuse(
+            format("desc.min and max are %g and %g, expected 0 < min <= max, or both 0", desc.min, desc.max));
+    if (desc.first > 0 && desc.max > 0 && !(desc.first >= desc.min && desc.first <= desc.max))
+        refuse(format("desc.first is %g, expected from min, %g, to max, %g", desc.first, desc.min, desc.max));
+    if (!(first > 0)) refuse("desc.first is 0, and no grid is described that a first cell size follows from");
+    if (desc.first > 0 && desc.first < least)
+        refuse(format("desc.first is %g, the smallest that gives right answers is %g", desc.first, least));
+    if (desc.max > 0 && desc.max < least)
+        refuse(format("desc.max is %g, the smallest that gives right answers is %g", desc.max, least));
+    if (!(range.max > 0)) range = {first / 8, first * 8};
+    range.min = std::max(range.min, least);
+    settings.first = std::clamp(first, range.min, range.max);
+    if (!(range.min > 0) || !std::isfinite(range.max))
+        refuse(format("the first cell size is %g, too far from 1 for an eighth or eight times it", first));
     return settings;
 }
 
@@ -56,10 +88,9 @@ vox_result vox_foreign_grid_fit(const vox_foreign_grid* grid, const vox_timing* 
             throw Error(VOX_ERROR_LIMIT,
                         format("count is %" PRIu64 ", the limit is %" PRIu32, count, UINT32_MAX));
         DescribedGrid described(grid);
-        const FitSettings settings{described.work.least_cell_size(), described.grid.desc.zone_loss};
         write_struct(out,
-                     fit_timings(described.basis, settings, {timings, static_cast<std::size_t>(count)},
-                                 &described.memory),
+                     fit_timings(described.basis, described.fit_settings(),
+                                 {timings, static_cast<std::size_t>(count)}, &described.memory),
                      "out");
     });
 }
@@ -69,20 +100,19 @@ vox_result vox_foreign_grid_tune(const vox_foreign_grid* grid, const vox_tune_de
     return border([&] {
         check_out_struct(out, "out");
         if (!run) refuse("run is null");
-        const vox_tune_desc asked = read_tune_desc(desc);
+        const vox_tune_desc asked = desc ? read_struct(desc, "desc") : vox_default_tune_desc();
         const GridRun run_of_caller = [&](double cell_size) {
             const CallersFloats floats;
             return run(cell_size, user);
         };
         if (!grid) {
-            const TuneSettings settings(asked, default_zone_loss, 0, 0);
+            const TuneSettings settings = read_settings(asked, {}, 0);
             write_struct(out, tune(nullptr, settings, run_of_caller, std::pmr::new_delete_resource()), "out");
             return;
         }
         DescribedGrid described(grid);
         const double suggested = asked.first > 0 ? 0 : suggest_for(described.grid, described.work).cell_size;
-        const TuneSettings settings(asked, described.grid.desc.zone_loss, suggested,
-                                    described.work.least_cell_size());
+        const TuneSettings settings = read_settings(asked, described.fit_settings(), suggested);
         write_struct(out, tune(&described.basis, settings, run_of_caller, &described.memory), "out");
     });
 }

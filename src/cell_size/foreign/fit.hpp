@@ -12,7 +12,6 @@
 #include <functional>
 #include <memory_resource>
 #include <span>
-#include <string>
 
 namespace vox {
 
@@ -31,6 +30,10 @@ CostBasis described_basis(const WorkAt& work, const vox_foreign_weights& expecte
 // Powers -3 to 3 of the cell size. A sum of them is convex in the logarithm. That of the expected
 // coefficients is least at `middle`, and costs 5 % more at 0.78 and 1.29 of it, as the paper's cost does.
 CostBasis power_basis(double middle);
+
+// The described terms, and powers behind them for what they lack, which nothing is expected of; or powers
+// alone.
+CostBasis with_powers(const CostBasis* described, double middle);
 
 // Throws LIMIT where a term is more than most_counted at that size. `what` the size is, for the text.
 void check_countable(const CostBasis& basis, double cell_size, const char* what);
@@ -51,8 +54,8 @@ inline constexpr double least_seconds = 1e-30, most_seconds = 1e30;
 // Coefficients by least squares of the relative errors (fitted / measured - 1).
 class CostFit {
 public:
-    // The share of each term at `middle` is pulled weakly towards the expected one, as a tenth of a timing
-    // would. This settles what timings cannot tell apart. `middle` has the terms at one cell size.
+    // The share of each term at `middle` is pulled weakly towards the expected one, as a sixteenth of a
+    // timing would. This settles what timings cannot tell apart. `middle` has the terms at one cell size.
     CostFit(const CostBasis& basis, const Coefficients& middle) noexcept;
 
     // In seconds. At least one timing.
@@ -65,43 +68,31 @@ private:
         expected_{}; // shares at `middle`; for terms that are 0 there, of the whole for each one, at most all
 };
 
-// Sets the weights of the timings. Slow ones count less, as only the curve around its minimum matters, and so
-// do those far above the curve, as something else was running then. Returns the noise: the relative error of
-// a timing.
-double weigh(const CostFit& fit, std::span<TimedTerms> timings) noexcept;
+// Sets the weights of the timings: those far above the curve count less, as something else was running then.
+Coefficients fit_robustly(const CostFit& fit, std::span<TimedTerms> timings) noexcept;
 
-// Root mean square of the relative errors, by weight or of all alike.
-double weighted_error(std::span<const TimedTerms> timings, const Coefficients& coefficients) noexcept;
-double plain_error(std::span<const TimedTerms> timings, const Coefficients& coefficients) noexcept;
+// Root mean square of (fitted / measured - 1).
+double relative_error(std::span<const TimedTerms> timings, const Coefficients& coefficients) noexcept;
 
-// Takes the smallest cell size that gives right answers, which was run, for the best one where the fit sees
-// hardly a difference: no box of a grid that needs cells as large as its boxes covers more than two of them
-// along an axis, and a run at the least such size can be far faster than one close to it, which smooth terms
-// do not show.
-void prefer_least(CostMinimum& best, const CostMinimum& at_least) noexcept;
-
-// Beyond this error the counts do not describe the grid.
+// Beyond this error the counts do not describe the grid: three times what noise of 5 % does.
 inline constexpr double disagreeing_model = 0.15;
-// Timings at one cell size disagree beyond this ratio.
+// Timings at one cell size disagree beyond this ratio: five times what noise of 5 % does.
 inline constexpr double disagreeing_timings = 1.25;
 
-// Warnings with their texts.
-class Notes {
-public:
-    void add(vox_cell_size_warnings warning, const std::string& text);
-    std::uint32_t warnings() const noexcept { return warnings_; }
-    void write(char (&note)[VOX_NOTE_CAPACITY]) const noexcept;
-
-private:
-    std::uint32_t warnings_ = 0;
-    std::string text_;
-};
-
-// What vox_foreign_grid_fit is asked.
 struct FitSettings {
     double least_cell_size = 0; // that is legal; 0: any
-    double zone_loss = 0.05;
+    double zone_loss = default_zone_loss;
 };
+
+// What both fit and tune say of the best size: its cost, the zone within `range`, the curve, and whether it
+// is the smallest that gives right answers.
+void write_best(const CostMinimum& best, const CostFunction& cost, const CellSizeRange& range,
+                const FitSettings& settings, vox_cell_size_result& result);
+
+// The weights of the described grid alone; `all` are coefficients of a fit with further terms. `middle` as
+// for CostFit. Changes the weights of the timings.
+void write_weights(const CostBasis& described, const Coefficients& middle, std::span<TimedTerms> timings,
+                   const Coefficients& all, vox_cell_size_result& result);
 
 // Throws INVALID_ARGUMENT for timings that vox_cell_size.h does not allow.
 vox_cell_size_result fit_timings(const CostBasis& described, const FitSettings& settings,

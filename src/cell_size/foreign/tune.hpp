@@ -12,24 +12,13 @@
 
 namespace vox {
 
-// Sets the fields whose 0 stands for something else.
-void complete(vox_tune_desc& desc);
-
-// Throws INVALID_ARGUMENT for what vox_cell_size.h does not allow, whatever the grid.
-void check_tune_desc(const vox_tune_desc& desc);
-
-// Where to look, from a desc that was checked. `suggested`: the first cell size where the caller has set
-// none; 0: none. `least`: the smallest that gives right answers, or 0. Throws INVALID_ARGUMENT where no cell
-// size is left.
-struct TuneSettings {
-    TuneSettings(const vox_tune_desc& desc, double loss_in_zone, double suggested, double least);
-
-    std::uint32_t max_runs;
-    double zone_loss;
-    double wanted_loss;
-    double least; // legal size, or 0
-    double first;
-    CellSizeRange range;
+// How to tune, and where; checked. `first` is in the range, whose min is at least the smallest size that
+// gives right answers.
+struct TuneSettings : FitSettings {
+    std::uint32_t max_runs = 7;
+    double wanted_loss = 0.02;
+    double first = 1;
+    CellSizeRange range{1 / 8., 8};
 };
 
 // As vox_foreign_run.
