@@ -165,17 +165,21 @@ void write_best(const CostMinimum& best, const CostFunction& cost, const CellSiz
             format("%g is the smallest cell size that gives right answers", settings.least_cell_size));
 }
 
-void write_weights(const CostBasis& described, const Coefficients& middle, std::span<TimedTerms> timings,
-                   const Coefficients& all, vox_cell_size_result& result) {
-    const double error_of_all = relative_error(timings, all);
-    const CostFit fit(described, middle);
+void write_errors(const CostBasis* described, const Coefficients& middle, std::span<TimedTerms> timings,
+                  const Coefficients& all, vox_cell_size_result& result) {
+    result.fit_error = relative_error(timings, all);
+    if (result.fit_error > disagreeing_timings - 1)
+        add_warning(result, VOX_CELL_SIZE_TIMINGS_DISAGREE,
+                    format("runs are %.0f %% away from the best curve", 100 * result.fit_error));
+    if (!described) return;
+    const CostFit fit(*described, middle);
     const Coefficients coefficients = fit_robustly(fit, timings);
     const double error = relative_error(timings, coefficients);
-    if (error > disagreeing_model && error > 2 * error_of_all)
+    if (error > disagreeing_model && error > 2 * result.fit_error)
         add_warning(
             result, VOX_CELL_SIZE_MODEL_DISAGREES,
             format("the counts of this grid miss the times by %.0f %%, powers of the cell size by %.0f %%",
-                   100 * error, 100 * error_of_all));
+                   100 * error, 100 * result.fit_error));
     result.weights = weights_of(coefficients);
 }
 

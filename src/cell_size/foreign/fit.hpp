@@ -89,10 +89,10 @@ struct FitSettings {
 void write_best(const CostMinimum& best, const CostFunction& cost, const CellSizeRange& range,
                 const FitSettings& settings, vox_cell_size_result& result);
 
-// The weights of the described grid alone; `all` are coefficients of a fit with further terms. `middle` as
-// for CostFit. Changes the weights of the timings.
-void write_weights(const CostBasis& described, const Coefficients& middle, std::span<TimedTerms> timings,
-                   const Coefficients& all, vox_cell_size_result& result);
+// How far timings are from a tuning's fit to them, `all`, and, where a grid is described, the weights of a
+// fit without powers. `middle` as for CostFit. Changes the weights of the timings.
+void write_errors(const CostBasis* described, const Coefficients& middle, std::span<TimedTerms> timings,
+                  const Coefficients& all, vox_cell_size_result& result);
 
 // Throws INVALID_ARGUMENT for timings that vox_cell_size.h does not allow.
 vox_cell_size_result fit_timings(const CostBasis& described, const FitSettings& settings,

@@ -11,12 +11,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <utility>
 
 namespace vox {
-
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -51,7 +49,16 @@ public:
             if (was_run(node, 0)) break;
             time(node);
         }
-        answer();
+        write_best(
+            {size(best_), cost(best_, fitted_)},
+            [&](double log_size) { return cost_of(basis_.values(std::exp2(log_size)), fitted_); },
+            {size(view_low()), size(view_high())}, settings_, result_);
+        result_.timing_count = count_;
+        if (const int node = cheapest(fitted_); node < smallest_ || node > largest_)
+            add_warning(
+                result_, VOX_CELL_SIZE_OUT_OF_RANGE,
+                format("the best cell size is beyond those run, %g to %g", size(smallest_), size(largest_)));
+        write_errors(described_, values(best_), timed_, fitted_, result_);
         return result_;
     }
 
@@ -71,8 +78,8 @@ private:
 
     bool may_go_on() const { return !stopped_ && count_ < settings_.max_runs; }
     bool was_run(int node, int most_away) const {
-        const auto is_near = [&](int other) { return std::abs(other - node) <= most_away; };
-        return std::any_of(nodes_.begin(), nodes_.begin() + count_, is_near);
+        return std::any_of(nodes_.begin(), nodes_.begin() + count_,
+                           [=](int other) { return std::abs(other - node) <= most_away; });
     }
 
     void time(int node) {
@@ -163,23 +170,6 @@ private:
         return result_.expected_loss > settings_.wanted_loss ? doubted_ : best_;
     }
 
-    void answer() {
-        write_best(
-            {size(best_), cost(best_, fitted_)},
-            [&](double log_size) { return cost_of(basis_.values(std::exp2(log_size)), fitted_); },
-            {size(view_low()), size(view_high())}, settings_, result_);
-        result_.timing_count = count_;
-        result_.fit_error = relative_error(timed_, fitted_);
-        if (const int node = cheapest(fitted_); node < smallest_ || node > largest_)
-            add_warning(
-                result_, VOX_CELL_SIZE_OUT_OF_RANGE,
-                format("the best cell size is beyond those run, %g to %g", size(smallest_), size(largest_)));
-        if (result_.fit_error > disagreeing_timings - 1)
-            add_warning(result_, VOX_CELL_SIZE_TIMINGS_DISAGREE,
-                        format("runs are %.0f %% away from the best curve", 100 * result_.fit_error));
-        if (described_) write_weights(*described_, values(best_), timed_, fitted_, result_);
-    }
-
     const CostBasis* described_;
     const TuneSettings& settings_;
     const GridRun& run_;
@@ -195,10 +185,9 @@ private:
     Array<int> ran_;
     int smallest_ = std::numeric_limits<int>::max(), largest_ = 0; // of these
     double fastest_ = infinity;                                    // seconds of the fastest run
-    int fastest_node_ = 0;
-    Coefficients fitted_{}; // to all runs
-    int best_ = 0;          // node of the best run
-    int doubted_ = 0;       // node that costs least by the fit that best_ loses most by
+    Coefficients fitted_{};                                        // to all runs
+    // Nodes: of the fastest run, of the best, and where the fit that loses most at the best costs least.
+    int fastest_node_ = 0, best_ = 0, doubted_ = 0;
 };
 
 } // namespace
