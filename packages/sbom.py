@@ -23,7 +23,7 @@ THIRD_PARTY = {
     "pugixml": ("libpugixml-dev", "MIT", "https://pugixml.org", "in vox_io of builds with VOX_IO_XML that are linked statically"),
     "zlib": ("zlib1g-dev", "Zlib", "https://zlib.net", "in vox_io of builds with VOX_IO_XML that are linked statically"),
     "CLI11": ("libcli11-dev", "BSD-3-Clause", "https://github.com/CLIUtils/CLI11", "headers, in the tool"),
-    "JSON for Modern C++": ("nlohmann-json3-dev", "MIT", "https://github.com/nlohmann/json", "headers, in the tool"),
+    "JSON for Modern C++": ("nlohmann-json3-dev", "MIT", "https://github.com/nlohmann/json", "headers, in vox_io and the tool"),
 }
 
 

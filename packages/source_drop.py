@@ -5,7 +5,7 @@ usage: source_drop.py OUT [--core | --all]    OUT: a folder that does not exist 
 vox_mpi is not in it, vox_dist only with --all. --core: without vox_io and vox_sim. --all: also the tool, the reader of .vtu and the Python package; what pip takes.
 
 It holds include/, adapters/, src/, CMakeLists.txt and cmake/ of this repository, LICENSE, and in third_party/ what the sources include:
-Highway's headers; for vox_io and vox_sim Eigen's; for --all those of CLI11 and nlohmann-json, and the sources of pugixml and
+Highway's headers; for vox_io and vox_sim Eigen's; for vox_io those of nlohmann-json; for --all those of CLI11, and the sources of pugixml and
 zlib (from Debian's source packages, build/third_party), each with its licence. One line compiles the core, and another links a
 program with it:
 

@@ -45,6 +45,7 @@ class Voxtet(ConanFile):
         if self.options.with_io or self.options.with_sim:
             self.requires("eigen/[>=3.4 <4]", visible=False)
         if self.options.with_io:
+            self.requires("nlohmann_json/[>=3.10 <4]", visible=False)
             self.requires("pugixml/[>=1.11 <2]")
             self.requires("zlib/[>=1.2.11 <2]")
 
@@ -94,6 +95,6 @@ class Voxtet(ConanFile):
                 if self.settings.os in ("Linux", "FreeBSD"):
                     info.system_libs = ["m", "pthread"]
             if component == "io" and not self.options.vendored:
-                info.requires += ["pugixml::pugixml", "zlib::zlib"]
+                info.requires += ["nlohmann_json::nlohmann_json", "pugixml::pugixml", "zlib::zlib"]
             if not self.options.vendored:
                 info.requires += ["highway::highway"] if component == "vox" else ["eigen::eigen"]

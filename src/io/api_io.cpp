@@ -36,32 +36,14 @@ File without_byte_order_mark(File file) {
 
 // Reads any format except TetGen, which needs two files. Scenes may name other files in `folder`, that of the
 // file if it was given by its path.
-MeshData read_one(const File& given, const std::optional<std::string>& folder, vox_io_format which,
+MeshData read_one(const File& file, const std::optional<std::string>& folder, vox_io_format which,
                   std::uint32_t mesh_index) {
-    const File file = without_byte_order_mark(given);
-    switch (which) {
-    case VOX_IO_FORMAT_GMSH:
-        return read_gmsh(file);
-    case VOX_IO_FORMAT_MEDIT:
-        return read_medit(file);
-    case VOX_IO_FORMAT_VEGA:
-        return read_vega(file);
-    case VOX_IO_FORMAT_VTK:
-        return read_vtk(file);
-    case VOX_IO_FORMAT_VTU:
-        return read_vtu(file);
-    case VOX_IO_FORMAT_SURFACE:
-        return read_surface(file, folder, mesh_index);
-    case VOX_IO_FORMAT_ASSIMP:
-        return folder ? read_by_assimp_at(given.name, mesh_index)
-                      : read_by_assimp(given, extension_of(given.name), mesh_index);
-    default:
-        throw Error(VOX_ERROR_UNSUPPORTED,
-                    format("%s: expected a mesh, found neither known content nor a known extension (.msh "
-                           ".node .ele .mesh "
-                           ".veg .vtk .vtu, and surfaces: .obj .ply .stl .off .gltf .glb)",
-                           given.name.c_str()));
-    }
+    if (which != VOX_IO_FORMAT_ASSIMP)
+        return read_mesh(without_byte_order_mark(file), folder, which, mesh_index);
+    MeshData data = folder ? read_by_assimp_at(file.name, mesh_index)
+                           : read_by_assimp(file, extension_of(file.name), mesh_index);
+    data.format = which;
+    return data;
 }
 
 std::string folder_of(const std::string& path) {
@@ -75,7 +57,10 @@ MeshData read_pair(File node, File ele, const Progress& progress) {
     const double nodes = size(node) / (size(node) + size(ele));
     node.progress = progress.part(0, nodes);
     ele.progress = progress.part(nodes, 1);
-    return read_tetgen(without_byte_order_mark(std::move(node)), without_byte_order_mark(std::move(ele)));
+    MeshData data =
+        read_tetgen(without_byte_order_mark(std::move(node)), without_byte_order_mark(std::move(ele)));
+    data.format = VOX_IO_FORMAT_TETGEN;
+    return data;
 }
 
 MeshData load(const std::string& path, const vox_io_load_desc& desc, const Progress& progress) {
@@ -88,8 +73,7 @@ MeshData load(const std::string& path, const vox_io_load_desc& desc, const Progr
 
     const std::string extension = extension_of(path);
     if (extension != "node" && extension != "ele")
-        throw Error(VOX_ERROR_UNSUPPORTED,
-                    format("%s: expected a TetGen file named .node or .ele", path.c_str()));
+        throw_error(VOX_ERROR_UNSUPPORTED, "%s: expected a TetGen file named .node or .ele", path.c_str());
     const bool is_node = extension == "node";
     const std::string other_path =
         path.substr(0, path.size() - extension.size()) + (is_node ? "ele" : "node");
@@ -138,8 +122,8 @@ MeshData checked(const vox_io_mesh_view& arrays) {
     const auto check_array = [](const void* data, std::uint64_t count, std::uint64_t limit,
                                 const char* name) {
         if (count > limit)
-            throw Error(VOX_ERROR_LIMIT,
-                        format("%s: %llu are more than the limit of %llu", name, llu(count), llu(limit)));
+            throw_error(VOX_ERROR_LIMIT, "%s: %llu are more than the limit of %llu", name, llu(count),
+                        llu(limit));
         if (count > 0) require(data, name);
     };
     check_array(arrays.positions, arrays.vertex_count, VOX_MAX_VERTICES, "arrays->positions");
@@ -147,15 +131,13 @@ MeshData checked(const vox_io_mesh_view& arrays) {
     check_array(arrays.triangles, arrays.triangle_count, VOX_MAX_TETS, "arrays->triangles");
     for (std::uint64_t i = 0; i < 3 * arrays.vertex_count; ++i)
         if (!std::isfinite(arrays.positions[i]))
-            throw Error(VOX_ERROR_NON_FINITE,
-                        format("vertex %llu has a coordinate that is not finite", llu(i / 3)));
+            throw_error(VOX_ERROR_NON_FINITE, "vertex %llu has a coordinate that is not finite", llu(i / 3));
     const auto check_indices = [&](const std::uint32_t* indices, std::uint64_t count, unsigned corners,
                                    const char* name) {
         for (std::uint64_t i = 0; i < corners * count; ++i)
             if (indices[i] >= arrays.vertex_count)
-                throw Error(VOX_ERROR_INVALID_MESH,
-                            format("%s %llu names vertex %u of %llu", name, llu(i / corners), indices[i],
-                                   llu(arrays.vertex_count)));
+                throw_error(VOX_ERROR_INVALID_MESH, "%s %llu names vertex %u of %llu", name, llu(i / corners),
+                            indices[i], llu(arrays.vertex_count));
     };
     check_indices(arrays.tets, arrays.tet_count, 4, "tet");
     check_indices(arrays.triangles, arrays.triangle_count, 3, "triangle");
@@ -201,7 +183,7 @@ vox_result vox_io_mesh_get_arrays(const vox_io_mesh* mesh, vox_io_mesh_view* out
     return border([&] {
         require(mesh, "mesh");
         require(out_view, "out_view");
-        *out_view = view_of(mesh->arrays);
+        *out_view = mesh->view;
     });
 }
 
@@ -213,7 +195,7 @@ vox_result vox_io_mesh_describe(const vox_io_mesh* mesh, vox_mesh_desc* desc) {
         if (desc->struct_size < least)
             refuse(format("desc.struct_size is %u, which does not reach to tet_count; expected at least %zu",
                           desc->struct_size, least));
-        const vox_io_mesh_view view = view_of(mesh->arrays);
+        const vox_io_mesh_view& view = mesh->view;
         described.positions = vox_double_positions(view.positions, view.vertex_count);
         described.tets = view.tets;
         described.tet_count = view.tet_count;

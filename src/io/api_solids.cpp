@@ -4,9 +4,6 @@
 #include "base/structs.hpp"
 #include "io/mesh.hpp"
 #include "io/solids/bodies.hpp"
-#include "io/solids/cubes.hpp"
-#include "io/solids/quality.hpp"
-#include "io/solids/tetrahedralize.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +55,7 @@ vox_result vox_io_tetrahedralize(const vox_io_mesh* surface, const vox_io_tetrah
             refuse(format("desc.max_tets is %llu, expected 1 to %u", llu(wanted.max_tets), VOX_MAX_TETS));
         check_allocator(wanted.allocator, "desc.allocator");
         if (wanted.reserved != 0) refuse(format("desc.reserved is %u, expected 0", wanted.reserved));
-        const vox_io_mesh_view view = view_of(surface->arrays);
+        const vox_io_mesh_view& view = surface->view;
         if (view.triangle_count == 0)
             refuse(format("the surface has no triangles (%llu vertices, %llu tets)", llu(view.vertex_count),
                           llu(view.tet_count)));
@@ -71,8 +68,7 @@ vox_result vox_io_mesh_measure(const vox_io_mesh* mesh, const vox_io_mesh* surfa
     return border([&] {
         require(mesh, "mesh");
         check_out_struct(out_quality, "out_quality");
-        const vox_io_mesh_view surface_view = surface ? view_of(surface->arrays) : vox_io_mesh_view{};
-        write_struct(out_quality, measure_quality(view_of(mesh->arrays), surface ? &surface_view : nullptr),
+        write_struct(out_quality, measure_quality(mesh->view, surface ? &surface->view : nullptr),
                      "out_quality");
     });
 }
@@ -116,9 +112,9 @@ vox_result vox_io_make_box(double size_x, double size_y, double size_z, double c
         for (std::size_t k = 0; k < 3; ++k) {
             const double count = std::max(1.0, std::floor(size[k] / cell + 0.5));
             if (!(count <= 1e6))
-                throw Error(VOX_ERROR_LIMIT,
-                            format("a cell of %g makes %.0f cells along %c, at most 1000000 are possible",
-                                   cell, count, static_cast<int>('x' + k)));
+                throw_error(VOX_ERROR_LIMIT,
+                            "a cell of %g makes %.0f cells along %c, at most 1000000 are possible", cell,
+                            count, static_cast<int>('x' + k));
             cells[k] = static_cast<std::int32_t>(count);
         }
         return make_box(size, cells);

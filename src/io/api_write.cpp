@@ -61,14 +61,14 @@ void write(const vox_io_mesh& mesh, const vox_io_write_desc& desc,
                              {desc.cell_data, static_cast<std::size_t>(desc.cell_data_count)}};
     const bool binary = desc.binary != 0;
     if (desc.format == VOX_IO_WRITE_VTU)
-        write_vtu(mesh.arrays, values, binary, out);
+        write_vtu(mesh.view, values, binary, out);
     else
-        write_msh(mesh.arrays, desc.format, values, binary, out);
+        write_msh(mesh.view, desc.format, values, binary, out);
     out.flush();
 }
 
 [[noreturn]] void fail(const std::string& path, int error) {
-    throw Error(VOX_ERROR_FILE, format("%s: %s", path.c_str(), std::strerror(error)));
+    throw_error(VOX_ERROR_FILE, "%s: %s", path.c_str(), std::strerror(error));
 }
 
 // Writes to a file beside `path` and moves it there at the end. If `path` is not a regular file (a pipe, a
@@ -100,7 +100,7 @@ void write_file(const vox_io_mesh& mesh, const vox_io_write_desc& desc, const st
     if (error) {
         const std::string reason = error.message();
         (void)std::filesystem::remove(part, error);
-        throw Error(VOX_ERROR_FILE, format("%s: %s", path.c_str(), reason.c_str()));
+        throw_error(VOX_ERROR_FILE, "%s: %s", path.c_str(), reason.c_str());
     }
 }
 
@@ -118,8 +118,7 @@ vox_result vox_io_write(const vox_io_mesh* mesh, const char* path, const vox_io_
         if (settings.format == VOX_IO_WRITE_AUTO) {
             const std::string extension = extension_of(path);
             if (extension != "msh" && extension != "vtu")
-                throw Error(VOX_ERROR_UNSUPPORTED,
-                            format("%s: expected a name that ends with .msh or .vtu", path));
+                throw_error(VOX_ERROR_UNSUPPORTED, "%s: expected a name that ends with .msh or .vtu", path);
             settings.format = extension == "msh" ? VOX_IO_WRITE_MSH_41 : VOX_IO_WRITE_VTU;
         }
         write_file(*mesh, settings, path);
@@ -137,7 +136,7 @@ vox_result vox_io_write_to(const vox_io_mesh* mesh, const vox_io_write_desc* des
         write(*mesh, settings, [&](std::string_view bytes) {
             const CallersFloats floats;
             if (!bytes.empty() && sink->write(bytes.data(), bytes.size(), sink->user) != 0)
-                throw Error(VOX_ERROR_FILE, "the sink reports a failure");
+                throw_error(VOX_ERROR_FILE, "the sink reports a failure");
         });
     });
 }

@@ -25,12 +25,12 @@ vox_io_mesh* make_mesh(MeshData data, const vox_allocator* allocator, const Prog
     mesh->data = std::move(data);
     MeshData& own = mesh->data;
     own.notes = std::vector<std::string>(); // the warnings hold them
-    mesh->arrays = arrays_of(own);
+    mesh->view = view_of(own);
     if (allocator && allocator->allocate) {
         mesh->positions = moved(own.positions, &mesh->memory);
         mesh->tets = moved(own.tets, &mesh->memory);
         mesh->triangles = moved(own.triangles, &mesh->memory);
-        mesh->arrays = {mesh->positions, mesh->tets, mesh->triangles};
+        mesh->view = view_of(*mesh);
     }
     progress.report(1);
     return mesh.release();

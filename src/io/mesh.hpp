@@ -17,7 +17,7 @@ struct vox_io_mesh {
     vox::io::MeshData data;   // its arrays are empty if those below are in use
     vox::Array<double> positions;
     vox::Array<std::uint32_t> tets, triangles;
-    vox::io::MeshArrays arrays;
+    vox_io_mesh_view view{};
     vox_io_report report{};
     std::string warnings; // one line each
 };

@@ -6,7 +6,6 @@
 #include <vox/vox_io.h>
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -25,17 +24,11 @@ struct MeshData {
 
 constexpr std::uint32_t all_meshes = ~std::uint32_t{0}; // as a mesh_index; vox_io_load_desc.mesh is one more
 
-// The arrays, wherever they are.
-struct MeshArrays {
-    std::span<const double> positions;
-    std::span<const std::uint32_t> tets, triangles;
-};
-
-inline MeshArrays arrays_of(const MeshData& data) { return {data.positions, data.tets, data.triangles}; }
-
-inline vox_io_mesh_view view_of(const MeshArrays& arrays) {
-    return {arrays.positions.data(), arrays.positions.size() / 3, arrays.tets.data(),
-            arrays.tets.size() / 4,  arrays.triangles.data(),     arrays.triangles.size() / 3};
+// Of MeshData, or of a vox_io_mesh that has arrays of its own.
+template <class Arrays>
+vox_io_mesh_view view_of(const Arrays& of) {
+    return {of.positions.data(), of.positions.size() / 3, of.tets.data(),
+            of.tets.size() / 4,  of.triangles.data(),     of.triangles.size() / 3};
 }
 
 // Makes the public object, with report and warnings, from data whose positions are finite and whose indices

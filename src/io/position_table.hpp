@@ -5,8 +5,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
-#include <map>
+#include <set>
 #include <vector>
 
 namespace vox::io {
@@ -18,22 +17,19 @@ class PositionTable {
 public:
     // The positions are borrowed, and may grow between calls.
     explicit PositionTable(const std::vector<double>& positions)
-        : positions_(positions), blocks_(Less{&positions}) {}
+        : positions_(positions), rest_(Less{&positions}) {}
 
-    // Makes room for that many vertices: 8 bytes for each, and at most 10 for each in the tree.
+    // Makes room for that many vertices: 8 bytes for each, and 48 for each in the tree.
     void reserve(std::size_t vertices) {
         if (2 * vertices <= slots_) return;
         slots_ = 2 * vertices;
         std::vector<std::uint32_t> entries(slots_ + most_probes, empty);
         entries.swap(table_);
-        Blocks blocks(blocks_.key_comp());
-        blocks.swap(blocks_);
+        std::set<std::uint32_t, Less> rest(rest_.key_comp());
+        rest.swap(rest_);
         for (const std::uint32_t vertex : entries)
             if (vertex != empty) enter(vertex);
-        while (!blocks.empty()) {
-            for (const std::uint32_t vertex : blocks.begin()->second) enter(vertex);
-            blocks.erase(blocks.begin());
-        }
+        while (!rest.empty()) enter(rest.extract(rest.begin()).value());
     }
 
     // Returns the vertex that was entered with the position of `vertex`. If there is none, enters `vertex`,
@@ -46,13 +42,12 @@ public:
             if (std::equal(p, p + 3, &positions_[3 * std::size_t{*slot}])) return *slot;
         }
         // Slots never become empty again, so an equal position that was entered here is in the tree as well.
-        return enter_in_tree(vertex);
+        return *rest_.insert(vertex).first;
     }
 
 private:
     static constexpr std::uint32_t empty = 0xffffffffu;
     static constexpr std::size_t most_probes = 32; // a cluster of a half-full table is rarely longer
-    static constexpr std::ptrdiff_t half_block = 64;
 
     struct Less {
         const std::vector<double>* positions;
@@ -61,10 +56,6 @@ private:
             return std::lexicographical_compare(p, p + 3, q, q + 3);
         }
     };
-    // Vertices in the order of their positions. All blocks but the first have their first vertex as key, and
-    // all are at least half full if there are several.
-    using Blocks = std::map<std::uint32_t, std::vector<std::uint32_t>, Less>;
-
     static std::uint64_t hash_of(const double* p) {
         std::uint64_t hash = 0;
         for (int k = 0; k < 3; ++k) { // adding 0.0 turns -0 into 0
@@ -74,29 +65,10 @@ private:
         return hash;
     }
 
-    std::uint32_t enter_in_tree(std::uint32_t vertex) {
-        const Less less = blocks_.key_comp();
-        auto found = blocks_.upper_bound(vertex);
-        if (found != blocks_.begin())
-            --found;
-        else if (blocks_.empty())
-            found = blocks_.emplace(vertex, std::vector<std::uint32_t>()).first;
-        std::vector<std::uint32_t>& block = found->second;
-        const auto place = std::lower_bound(block.begin(), block.end(), vertex, less);
-        if (place != block.end() && !less(vertex, *place)) return *place;
-        block.insert(place, vertex);
-        if (std::ssize(block) == 2 * half_block) {
-            const auto middle = block.begin() + half_block;
-            blocks_.emplace(*middle, std::vector<std::uint32_t>(middle, block.end()));
-            block.erase(middle, block.end());
-        }
-        return vertex;
-    }
-
     const std::vector<double>& positions_;
-    std::size_t slots_ = 0;            // where a search begins; at most half of them are in use
-    std::vector<std::uint32_t> table_; // the slots, and as many more as the last search passes
-    Blocks blocks_;
+    std::size_t slots_ = 0;              // where a search begins; at most half of them are in use
+    std::vector<std::uint32_t> table_;   // the slots, and as many more as the last search passes
+    std::set<std::uint32_t, Less> rest_; // that found no place in their slots
 };
 
 } // namespace vox::io

@@ -1,8 +1,8 @@
 // Reports the progress of long work to the caller's function.
 #pragma once
 
-#include "base/error.hpp"
 #include "base/float_environment.hpp"
+#include "io/throw_error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -27,8 +27,8 @@ public:
     // Throws INVALID_STATE if the receiver cancels.
     void report(double fraction) const {
         if (receive_ && cancels(at(fraction)))
-            throw Error(VOX_ERROR_INVALID_STATE,
-                        format("cancelled by the progress function at %.0f %%", 100 * at(fraction)));
+            throw_error(VOX_ERROR_INVALID_STATE, "cancelled by the progress function at %.0f %%",
+                        100 * at(fraction));
     }
 
 private:

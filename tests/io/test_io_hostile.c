@@ -503,7 +503,7 @@ START_TEST(scenes) {
 
     say("{\"extras\":");
     repeat("[", 2000000);
-    expect("brackets.gltf", VOX_ERROR_FORMAT, "expected a value, found the end");
+    expect("brackets.gltf", VOX_ERROR_FORMAT, "unexpected end of input");
 
     say("{" GLTF_MESH ",\"scenes\":[{}");
     repeat(",{}", 500000);

@@ -1,6 +1,6 @@
 // Reads surfaces of every format that assimp knows. Node transforms are applied, polygons split into
 // triangles, and the meshes of a scene joined unless a single one is requested.
-#include "io/determinant.hpp"
+#include "io/formats/placement.hpp"
 #include "io/formats/readers.hpp"
 #include "io/formats/surface_builder.hpp"
 
@@ -15,29 +15,9 @@
 namespace vox::io {
 namespace {
 
-class Matrix { // 3 x 4, in double
-public:
-    Matrix() = default;
-    Matrix(const Matrix& parent, const aiMatrix4x4& own) {
-        const double m[3][4] = {{own.a1, own.a2, own.a3, own.a4},
-                                {own.b1, own.b2, own.b3, own.b4},
-                                {own.c1, own.c2, own.c3, own.c4}};
-        for (int i = 0; i < 3; ++i)
-            for (int j = 0; j < 4; ++j) {
-                m_[i][j] = j == 3 ? parent.m_[i][3] : 0;
-                for (int k = 0; k < 3; ++k) m_[i][j] += parent.m_[i][k] * m[k][j];
-            }
-    }
-    void apply(const aiVector3D& p, double out[3]) const {
-        for (int i = 0; i < 3; ++i)
-            out[i] = m_[i][0] * static_cast<double>(p.x) + m_[i][1] * static_cast<double>(p.y) +
-                     m_[i][2] * static_cast<double>(p.z) + m_[i][3];
-    }
-    bool mirrors() const { return determinant(m_[0], m_[1], m_[2]) < 0; }
-
-private:
-    double m_[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
-};
+Placement placement_of(const aiMatrix4x4& m) {
+    return {{{m.a1, m.a2, m.a3, m.a4}, {m.b1, m.b2, m.b3, m.b4}, {m.c1, m.c2, m.c3, m.c4}}};
+}
 
 class SceneReader {
 public:
@@ -51,7 +31,6 @@ public:
                           scene_.mNumMeshes));
         if (scene_.mRootNode) add_node(*scene_.mRootNode);
         MeshData data = surface_.finish();
-        data.format = VOX_IO_FORMAT_ASSIMP;
         data.unit_in_metres = unit();
         return data;
     }
@@ -61,25 +40,25 @@ private:
         // The stack is explicit because files can nest nodes deeper than the call stack allows.
         struct Entry {
             const aiNode* node;
-            Matrix parent;
+            Placement parent;
         };
-        std::vector<Entry> stack = {{&root, Matrix()}};
+        std::vector<Entry> stack = {{&root, Placement()}};
         while (!stack.empty()) {
             const Entry entry = stack.back();
             stack.pop_back();
-            const Matrix matrix(entry.parent, entry.node->mTransformation);
+            const Placement world = entry.parent.of(placement_of(entry.node->mTransformation));
             for (unsigned i = 0; i < entry.node->mNumMeshes; ++i) {
                 const unsigned mesh = entry.node->mMeshes[i];
                 if (mesh >= scene_.mNumMeshes || (mesh_index_ != all_meshes && mesh != mesh_index_)) continue;
-                add_mesh(*scene_.mMeshes[mesh], matrix);
+                add_mesh(*scene_.mMeshes[mesh], world);
             }
             for (unsigned i = entry.node->mNumChildren; i-- > 0;)
-                stack.push_back({entry.node->mChildren[i], matrix});
+                stack.push_back({entry.node->mChildren[i], world});
         }
     }
 
-    void add_mesh(const aiMesh& mesh, const Matrix& matrix) {
-        const bool mirrors = matrix.mirrors();
+    void add_mesh(const aiMesh& mesh, const Placement& world) {
+        const bool mirrors = world.mirrors();
         for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
             const aiFace& face = mesh.mFaces[f];
             if (face.mNumIndices != 3) {
@@ -89,16 +68,16 @@ private:
             std::uint32_t triangle[3];
             for (unsigned i = 0; i < 3; ++i) {
                 if (face.mIndices[i] >= mesh.mNumVertices)
-                    throw Error(VOX_ERROR_FORMAT,
-                                format("%s: face %u: expected a vertex from 0 to %u, found %u", name_.c_str(),
-                                       f, mesh.mNumVertices - 1, face.mIndices[i]));
+                    throw_error(VOX_ERROR_FORMAT, "%s: face %u: expected a vertex from 0 to %u, found %u",
+                                name_.c_str(), f, mesh.mNumVertices - 1, face.mIndices[i]);
+                const aiVector3D& at = mesh.mVertices[face.mIndices[i]];
+                const double own[3] = {at.x, at.y, at.z};
                 double p[3];
-                matrix.apply(mesh.mVertices[face.mIndices[i]], p);
-                if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
-                    throw Error(
-                        VOX_ERROR_FORMAT,
-                        format("%s: face %u: expected a position, found a coordinate that is not finite",
-                               name_.c_str(), f));
+                world.apply(own, p);
+                if (!is_finite(p))
+                    throw_error(VOX_ERROR_FORMAT,
+                                "%s: face %u: expected a position, found a coordinate that is not finite",
+                                name_.c_str(), f);
                 triangle[i] = surface_.vertex(p);
             }
             if (mirrors) std::swap(triangle[1], triangle[2]);
@@ -140,13 +119,13 @@ MeshData convert(Assimp::Importer& importer, const aiScene* scene, const std::st
     const bool known = !extension.empty() && extension.find_first_of("*;") == std::string::npos &&
                        importer.IsExtensionSupported("." + extension);
     if (!scene && !known)
-        throw Error(VOX_ERROR_UNSUPPORTED,
-                    format("%s: expected a surface that assimp reads, found neither known "
-                           "content nor a known extension",
-                           name.c_str()));
+        throw_error(VOX_ERROR_UNSUPPORTED,
+                    "%s: expected a surface that assimp reads, found neither known "
+                    "content nor a known extension",
+                    name.c_str());
     if (!scene || !scene->mRootNode)
-        throw Error(VOX_ERROR_FORMAT, format("%s: expected a surface, found this: %s", name.c_str(),
-                                             printable(importer.GetErrorString(), 400).c_str()));
+        throw_error(VOX_ERROR_FORMAT, "%s: expected a surface, found this: %s", name.c_str(),
+                    printable(importer.GetErrorString(), 400).c_str());
     return SceneReader(*scene, name, mesh_index).read();
 }
 

@@ -20,15 +20,45 @@ bool contains_early(std::string_view bytes, std::string_view text) {
     return bytes.substr(0, 4096).find(text) != std::string_view::npos;
 }
 
-using SurfaceReader = MeshData (*)(const File&, const std::optional<std::string>&, std::uint32_t);
+using Reader = MeshData (*)(const File&, const std::optional<std::string>&, std::uint32_t);
 
+template <MeshData (*read)(const File&)>
+MeshData tets(const File& file, const std::optional<std::string>&, std::uint32_t) {
+    return read(file);
+}
 template <MeshData (*read)(const File&, std::uint32_t)>
 MeshData alone(const File& file, const std::optional<std::string>&, std::uint32_t mesh_index) {
     return read(file, mesh_index);
 }
 
+struct Format {
+    std::string_view extension;
+    vox_io_format format;
+    Reader read;
+};
+constexpr Format formats[] = {{"msh", VOX_IO_FORMAT_GMSH, tets<read_gmsh>},
+                              {"mesh", VOX_IO_FORMAT_MEDIT, tets<read_medit>},
+                              {"veg", VOX_IO_FORMAT_VEGA, tets<read_vega>},
+                              {"vtk", VOX_IO_FORMAT_VTK, tets<read_vtk>},
+                              {"vtu", VOX_IO_FORMAT_VTU, tets<read_vtu>},
+                              {"node", VOX_IO_FORMAT_TETGEN, nullptr}, // two files: read_tetgen
+                              {"ele", VOX_IO_FORMAT_TETGEN, nullptr},
+                              {"obj", VOX_IO_FORMAT_SURFACE, alone<read_obj>},
+                              {"off", VOX_IO_FORMAT_SURFACE, alone<read_off>},
+                              {"ply", VOX_IO_FORMAT_SURFACE, alone<read_ply>},
+                              {"stl", VOX_IO_FORMAT_SURFACE, alone<read_stl>},
+                              {"gltf", VOX_IO_FORMAT_SURFACE, read_gltf},
+                              {"glb", VOX_IO_FORMAT_SURFACE, read_gltf}};
+
+// The first that satisfies `is_it`, or null.
+template <class IsIt>
+const Format* find_format(const IsIt& is_it) {
+    const auto* const found = std::find_if(std::begin(formats), std::end(formats), is_it);
+    return found == std::end(formats) ? nullptr : found;
+}
+
 // The reader for the surface that the first characters of `bytes` indicate; null for none.
-SurfaceReader surface_of_content(std::string_view bytes) {
+Reader surface_of_content(std::string_view bytes) {
     if (is_binary_stl(bytes)) return alone<read_stl>; // first: its header may hold any words
     const File file{"", first_text(bytes, '#')};
     const std::string_view text = file.bytes, word = Scanner(file, '#').peek();
@@ -39,27 +69,28 @@ SurfaceReader surface_of_content(std::string_view bytes) {
     return nullptr;
 }
 
-SurfaceReader surface_of_extension(const std::string& extension) {
-    if (extension == "obj") return alone<read_obj>;
-    if (extension == "off") return alone<read_off>;
-    if (extension == "ply") return alone<read_ply>;
-    if (extension == "stl") return alone<read_stl>;
-    if (extension == "gltf" || extension == "glb") return read_gltf;
-    return nullptr;
-}
-
 } // namespace
 
-MeshData read_surface(const File& file, const std::optional<std::string>& folder, std::uint32_t mesh_index) {
-    SurfaceReader read = surface_of_content(file.bytes);
-    if (!read) read = surface_of_extension(extension_of(file.name));
+MeshData read_mesh(const File& file, const std::optional<std::string>& folder, vox_io_format format,
+                   std::uint32_t mesh_index) {
+    const bool surface = format == VOX_IO_FORMAT_SURFACE;
+    Reader read = surface ? surface_of_content(file.bytes) : nullptr;
+    const std::string extension = extension_of(file.name);
     if (!read)
-        throw Error(
+        if (const Format* const found = find_format([&](const Format& each) {
+                return each.format == format && (!surface || each.extension == extension);
+            }))
+            read = found->read;
+    if (!read)
+        throw_error(
             VOX_ERROR_UNSUPPORTED,
-            format("%s: expected a surface, found neither known content nor a known extension (.obj .ply "
-                   ".stl .off .gltf .glb)",
-                   file.name.c_str()));
-    return read(file, folder, mesh_index);
+            "%s: expected a %s, found neither known content nor a known extension (%s.obj .ply .stl .off "
+            ".gltf .glb)",
+            file.name.c_str(), surface ? "surface" : "mesh",
+            surface ? "" : ".msh .node .ele .mesh .veg .vtk .vtu, and surfaces: ");
+    MeshData data = read(file, folder, mesh_index);
+    data.format = format;
+    return data;
 }
 
 vox_io_format format_of_content(std::string_view bytes) {
@@ -80,14 +111,8 @@ vox_io_format format_of_content(std::string_view bytes) {
 bool is_ogre_mesh(std::string_view bytes) { return contains_early(bytes, "[MeshSerializer"); }
 
 vox_io_format format_of_extension(const std::string& extension) {
-    if (extension == "msh") return VOX_IO_FORMAT_GMSH;
-    if (extension == "node" || extension == "ele") return VOX_IO_FORMAT_TETGEN;
-    if (extension == "mesh") return VOX_IO_FORMAT_MEDIT;
-    if (extension == "veg") return VOX_IO_FORMAT_VEGA;
-    if (extension == "vtk") return VOX_IO_FORMAT_VTK;
-    if (extension == "vtu") return VOX_IO_FORMAT_VTU;
-    if (surface_of_extension(extension)) return VOX_IO_FORMAT_SURFACE;
-    return VOX_IO_FORMAT_AUTO;
+    const Format* const found = find_format([&](const Format& each) { return each.extension == extension; });
+    return found ? found->format : VOX_IO_FORMAT_AUTO;
 }
 
 std::string extension_of(std::string_view name) {
@@ -100,7 +125,7 @@ std::string extension_of(std::string_view name) {
 
 void refuse_other_content(const File& file) {
     const auto refuse = [&](const char* reason) {
-        throw Error(VOX_ERROR_FORMAT, format("%s: %s", file.name.c_str(), reason));
+        throw_error(VOX_ERROR_FORMAT, "%s: %s", file.name.c_str(), reason);
     };
     const std::string_view bytes = file.bytes;
     const std::string_view text = first_text(bytes, 0);
@@ -116,26 +141,22 @@ void refuse_other_content(const File& file) {
 }
 
 void Skipped::add(Cell cell, const char* name, std::uint64_t number) {
-    elements_ += number;
+    elements += number;
     if (cell != Cell::volume) return;
-    for (Kind& kind : volumes_)
-        if (kind.name == name) {
-            kind.number += number;
-            return;
-        }
-    volumes_.push_back({name, number});
+    const auto is_it = [&](const auto& kind) { return kind.first == name; };
+    const auto found = std::find_if(volumes.begin(), volumes.end(), is_it);
+    if (found != volumes.end())
+        found->second += number;
+    else
+        volumes.emplace_back(name, number);
 }
 
-void Skipped::report(MeshData& data) const {
-    data.skipped_elements += elements_;
-    for (const Kind& kind : volumes_)
-        data.notes.push_back(format("%llu volume element%s of another kind %s left out: %s", llu(kind.number),
-                                    kind.number == 1 ? "" : "s", kind.number == 1 ? "was" : "were",
-                                    kind.name.c_str()));
-}
-
-void require_tets(const MeshData& data, const std::string& name) {
-    if (!data.tets.empty()) return;
+MeshData finished(MeshData data, const Skipped& skipped, const std::string& name) {
+    data.skipped_elements += skipped.elements;
+    for (const auto& [kind, number] : skipped.volumes)
+        data.notes.push_back(format("%llu volume element%s of another kind %s left out: %s", llu(number),
+                                    number == 1 ? "" : "s", number == 1 ? "was" : "were", kind.c_str()));
+    if (!data.tets.empty()) return data;
     std::string text = format("%s: expected tetrahedra, found none", name.c_str());
     if (!data.triangles.empty()) text += format(" (but %zu triangles)", data.triangles.size() / 3);
     for (const std::string& note : data.notes) text.append("; ").append(note);

@@ -2,10 +2,12 @@
 #pragma once
 
 #include "io/formats/file_bytes.hpp"
-#include "io/formats/json.hpp"
+#include "io/formats/number_type.hpp"
+#include "io/formats/placement.hpp"
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,7 +19,7 @@ inline constexpr std::uint32_t none = 0xffffffffu;
 
 struct Buffer {
     std::uint64_t length = 0;
-    std::size_t uri_at = 0; // place of the text in the JSON; 0: none, the binary chunk
+    std::optional<std::string> uri; // none: the binary chunk
     std::string_view bytes;
 };
 
@@ -26,12 +28,10 @@ struct BufferView {
     std::uint32_t buffer = none, stride = 0;
 };
 
-enum ComponentType : std::uint32_t { int8 = 5120, uint8, int16, uint16, uint32 = 5125, float32 };
-
 struct Accessor {
     std::uint64_t offset = 0, count = 0;
     std::uint32_t view = none;
-    std::uint32_t type = 0; // a ComponentType
+    std::uint32_t type = 0; // as in the file
     bool normalized = false, is_vec3 = false, is_scalar = false, sparse = false;
 };
 
@@ -40,35 +40,46 @@ struct Primitive {
     std::uint32_t mode = 4;
 };
 
+struct Node {
+    std::uint32_t mesh = none;
+    std::uint32_t placement = none; // none: that of its parent
+    std::uint32_t children_end = 0; // they begin where those of the node before end
+};
+
+// Only this is kept of a document; all else is skipped. It takes at most 6 times the text: 12 bytes for an
+// empty node or primitive, "{},", and 108 for a node with a placement, {"scale":[1,1,1]}. The deques hold
+// pieces of 512 bytes, so that none of it is ever there twice.
+struct Contents {
+    std::uint32_t scene = 0;
+    std::deque<std::uint32_t> roots, roots_end; // nodes, and where those of each scene end
+    std::deque<Node> nodes;
+    std::deque<std::uint32_t> children;
+    std::deque<Placement> placements;
+    std::deque<std::uint32_t> first_primitive; // of each mesh
+    std::deque<Primitive> primitives;
+    std::deque<Accessor> accessors;
+    std::deque<BufferView> views;
+    std::deque<Buffer> buffers;
+};
+
+// Reads `text`, the JSON of the file from byte `first` on. Errors name the file and the value, as in
+// accessors[3].count, or where the text is no JSON.
+Contents read_contents(const File& file, std::size_t first, std::string_view text);
+
 // The bytes of an accessor, with the distance from one value to the next.
 struct Values {
     const char* bytes = nullptr;
     std::uint64_t count = 0, stride = 0;
-    std::uint32_t type = 0;
+    NumberType type{};
     bool normalized = false;
 };
 
-std::uint64_t size_of(std::uint32_t component_type);
-
-// Only what follows is kept of a document; all else is skipped. That takes less memory than usual text, and
-// at most 4.3 times the text, for empty primitives: 12 bytes for each "{},", in pieces of 512. Objects of
-// scenes and nodes are read when they are visited.
 class Document {
 public:
     // Files that the document names are looked for in `folder`; without one it must be complete.
     Document(const File& file, const std::optional<std::string>& folder);
 
-    JsonReader& json() noexcept { return *json_; }
-    std::size_t scene_at() const noexcept { return scene_at_; } // place of the scene's object in the JSON
-    const std::deque<std::size_t>& nodes() const noexcept { return nodes_; } // the same for each node
-    std::size_t mesh_count() const noexcept { return first_primitive_.size(); }
-    // Those of mesh m begin with first_primitive(m), and end where those of the next one begin.
-    std::size_t first_primitive(std::size_t mesh) const noexcept {
-        return mesh < first_primitive_.size() ? first_primitive_[mesh] : primitives_.size();
-    }
-    const std::deque<Primitive>& primitives() const noexcept { return primitives_; }
-    const std::vector<Accessor>& accessors() const noexcept { return accessors_; }
-
+    const Contents& contents() const noexcept { return contents_; }
     // The values of an accessor, checked against the bytes that there are.
     Values values(std::uint32_t accessor) const;
     // The bytes of the file, and of those that it names.
@@ -79,36 +90,18 @@ public:
     void check_number(const char* what, std::uint32_t number, std::size_t count) const;
 
 private:
-    std::size_t read_chunks();
-    void read_document();
-    void read_version();
-    void check_extension();
-    void note_place(std::deque<std::size_t>& places);
-    void read_mesh();
-    void read_primitive();
-    void read_accessor();
-    void read_view();
-    void read_buffer();
-    [[noreturn]] void fail_at(std::size_t place, const char* text);
+    using Fail = std::function<void(const std::string& text, vox_result result)>;
 
-    void load_buffers();
-    std::string_view decoded(const std::string& uri, std::uint64_t length);
-    std::string_view bytes_beside(const std::string& uri);
+    void read_chunks();
+    void load_buffer(std::size_t number);
+    std::string_view bytes_beside(const std::string& uri, const Fail& fail_here);
 
     const File& file_;
     const std::optional<std::string>& folder_;
-    File json_text_;          // the file up to the end of the JSON
+    Contents contents_;
     std::string_view binary_; // the binary chunk of a .glb
-    std::optional<JsonReader> json_;
-    std::deque<std::size_t> scenes_, nodes_;
-    std::vector<std::uint32_t> first_primitive_; // of each mesh
-    std::deque<Primitive> primitives_;
-    std::vector<Accessor> accessors_;
-    std::vector<BufferView> views_;
-    std::vector<Buffer> buffers_;
     std::deque<std::string> decoded_;
     std::deque<FileBytes> files_;
-    std::size_t scene_at_ = 0;
 };
 
 } // namespace vox::io::gltf

@@ -14,44 +14,44 @@ struct ElementType {
 
 // An element type of the manual; `nodes` is 0 for a number that is not in it.
 const ElementType& element_type(std::int64_t type) {
-    static const ElementType unknown = {0, Cell::other, ""};
-    static const ElementType types[32] = {unknown,
-                                          {2, Cell::other, "lines"},
-                                          {3, Cell::triangle, "triangles"},
-                                          {4, Cell::other, "quadrangles"},
-                                          {4, Cell::tet, "tetrahedra"},
-                                          {8, Cell::volume, "hexahedra"},
-                                          {6, Cell::volume, "prisms"},
-                                          {5, Cell::volume, "pyramids"},
-                                          {3, Cell::other, "second-order lines"},
-                                          {6, Cell::triangle, "second-order triangles"},
-                                          {9, Cell::other, "second-order quadrangles"},
-                                          {10, Cell::high_tet, "second-order tetrahedra"},
-                                          {27, Cell::volume, "second-order hexahedra"},
-                                          {18, Cell::volume, "second-order prisms"},
-                                          {14, Cell::volume, "second-order pyramids"},
-                                          {1, Cell::other, "points"},
-                                          {8, Cell::other, "second-order quadrangles"},
-                                          {20, Cell::volume, "second-order hexahedra"},
-                                          {15, Cell::volume, "second-order prisms"},
-                                          {13, Cell::volume, "second-order pyramids"},
-                                          {9, Cell::triangle, "third-order triangles"},
-                                          {10, Cell::triangle, "third-order triangles"},
-                                          {12, Cell::triangle, "fourth-order triangles"},
-                                          {15, Cell::triangle, "fourth-order triangles"},
-                                          {15, Cell::triangle, "fifth-order triangles"},
-                                          {21, Cell::triangle, "fifth-order triangles"},
-                                          {4, Cell::other, "third-order edges"},
-                                          {5, Cell::other, "fourth-order edges"},
-                                          {6, Cell::other, "fifth-order edges"},
-                                          {20, Cell::high_tet, "third-order tetrahedra"},
-                                          {35, Cell::high_tet, "fourth-order tetrahedra"},
-                                          {56, Cell::high_tet, "fifth-order tetrahedra"}};
-    static const ElementType hexahedron64 = {64, Cell::volume, "third-order hexahedra"};
-    static const ElementType hexahedron125 = {125, Cell::volume, "fourth-order hexahedra"};
+    using enum Cell;
+    static constexpr ElementType types[] = {{0, other, ""},
+                                            {2, other, "lines"},
+                                            {3, triangle, "triangles"},
+                                            {4, other, "quadrangles"},
+                                            {4, tet, "tetrahedra"},
+                                            {8, volume, "hexahedra"},
+                                            {6, volume, "prisms"},
+                                            {5, volume, "pyramids"},
+                                            {3, other, "second-order lines"},
+                                            {6, triangle, "second-order triangles"},
+                                            {9, other, "second-order quadrangles"},
+                                            {10, high_tet, "second-order tetrahedra"},
+                                            {27, volume, "second-order hexahedra"},
+                                            {18, volume, "second-order prisms"},
+                                            {14, volume, "second-order pyramids"},
+                                            {1, other, "points"},
+                                            {8, other, "second-order quadrangles"},
+                                            {20, volume, "second-order hexahedra"},
+                                            {15, volume, "second-order prisms"},
+                                            {13, volume, "second-order pyramids"},
+                                            {9, triangle, "third-order triangles"},
+                                            {10, triangle, "third-order triangles"},
+                                            {12, triangle, "fourth-order triangles"},
+                                            {15, triangle, "fourth-order triangles"},
+                                            {15, triangle, "fifth-order triangles"},
+                                            {21, triangle, "fifth-order triangles"},
+                                            {4, other, "third-order edges"},
+                                            {5, other, "fourth-order edges"},
+                                            {6, other, "fifth-order edges"},
+                                            {20, high_tet, "third-order tetrahedra"},
+                                            {35, high_tet, "fourth-order tetrahedra"},
+                                            {56, high_tet, "fifth-order tetrahedra"}};
+    static constexpr ElementType hexahedron64 = {64, volume, "third-order hexahedra"};
+    static constexpr ElementType hexahedron125 = {125, volume, "fourth-order hexahedra"};
     if (type == 92) return hexahedron64;
     if (type == 93) return hexahedron125;
-    return type > 0 && type < 32 ? types[type] : unknown;
+    return types[type > 0 && type < 32 ? type : 0];
 }
 
 class GmshReader {
@@ -59,7 +59,6 @@ public:
     explicit GmshReader(const File& file) : file_(file), in_(file) {}
 
     MeshData read() {
-        data_.format = VOX_IO_FORMAT_GMSH;
         std::size_t elements_at = 0; // where an $Elements section begins that precedes the nodes
         for (in_.skip_space(); !in_.done(); in_.skip_space()) {
             std::string_view name = in_.peek();
@@ -97,9 +96,7 @@ public:
             end_section(version_ == 10 ? "ELM" : "Elements");
         }
         if (!have_elements_) in_.expected("an $Elements section");
-        skipped_.report(data_);
-        require_tets(data_, file_.name);
-        return std::move(data_);
+        return finished(std::move(data_), skipped_, file_.name);
     }
 
 private:
@@ -109,25 +106,20 @@ private:
         const double version = in_.real("a version");
         version_ = version > 0 && version < 100 ? static_cast<int>(std::lround(version * 10)) : 0;
         if (version_ != 10 && (version_ < 20 || version_ > 22) && version_ != 40 && version_ != 41)
-            in_.fail(format("version %g: the versions read are 1, 2.0 to 2.2, 4.0 and 4.1", version),
-                     VOX_ERROR_UNSUPPORTED);
+            in_.unsupported("version %g: the versions read are 1, 2.0 to 2.2, 4.0 and 4.1", version);
         const auto type = in_.integer<int>("a file type (0: ASCII, 1: binary)");
-        if (type != 0 && type != 1)
-            in_.fail(format("expected file type 0 (ASCII) or 1 (binary), found %d", type));
+        if (type != 0 && type != 1) in_.fail("expected file type 0 (ASCII) or 1 (binary), found %d", type);
         const auto data_size = in_.integer<int>("a data size");
         in_.line_end();
         binary_ = type == 1;
         if (binary_) {
-            if (data_size != 8)
-                in_.fail(format("data size %d: binary files are read with size 8", data_size),
-                         VOX_ERROR_UNSUPPORTED);
+            if (data_size != 8) in_.unsupported("data size %d: binary files are read with size 8", data_size);
             in_.count_bytes(true);
             const std::size_t start = in_.offset();
             const auto one = in_.binary<std::uint32_t>(false, "the integer 1");
-            if (one != 1 && one != 0x01000000u) {
-                in_.seek(start);
-                in_.fail("expected the integer 1, which shows the byte order, found another number");
-            }
+            if (one != 1 && one != 0x01000000u)
+                in_.fail_at(start,
+                            "expected the integer 1, which shows the byte order, found another number");
             swap_ = one != 1;
         }
         end_section("MeshFormat");
@@ -142,8 +134,7 @@ private:
             in_.fail("expected $MeshFormat before this section");
         }
         parametric_ = name == "ParametricNodes";
-        if (parametric_ && binary_)
-            in_.fail("$ParametricNodes is read from ASCII files only", VOX_ERROR_UNSUPPORTED);
+        if (parametric_ && binary_) in_.unsupported("$ParametricNodes is read from ASCII files only");
     }
 
     static std::string end_mark(std::string_view name) {
@@ -160,8 +151,8 @@ private:
         const std::string mark = end_mark(name);
         const std::size_t distance = in_.rest().find(mark);
         if (distance == std::string_view::npos)
-            in_.fail(format("expected %s after $%s, found the end of the file", printable(mark).c_str(),
-                            printable(name).c_str()));
+            in_.fail("expected %s after $%s, found the end of the file", printable(mark).c_str(),
+                     printable(name).c_str());
         in_.seek(in_.offset() + distance + mark.size());
     }
 
@@ -197,10 +188,8 @@ private:
         const char* bytes = in_.take(24 + extra, "a position");
         for (std::size_t k = 0; k < 3; ++k) {
             const double x = load<double>(bytes + 8 * k, swap_);
-            if (!std::isfinite(x)) {
-                in_.seek(start);
-                in_.fail("expected a position, found a coordinate that is not finite");
-            }
+            if (!std::isfinite(x))
+                in_.fail_at(start, "expected a position, found a coordinate that is not finite");
             data_.positions.push_back(x);
         }
     }
@@ -217,11 +206,11 @@ private:
             const int dimension = version_ == 40 ? second : first;
             parametric_ = read_number<std::int32_t>("parametric (0 or 1)") != 0;
             if (dimension < 0 || dimension > 3)
-                in_.fail(format("expected an entity of dimension 0 to 3, found %d", dimension));
+                in_.fail("expected an entity of dimension 0 to 3, found %d", dimension);
             const std::uint64_t count = in_block("nodes in this block", binary_ ? 28 : 8);
             if (data_.positions.size() / 3 + count > total)
-                in_.fail(format("expected %llu nodes in all, found a block of %llu after %zu", llu(total),
-                                llu(count), data_.positions.size() / 3));
+                in_.fail("expected %llu nodes in all, found a block of %llu after %zu", llu(total),
+                         llu(count), data_.positions.size() / 3);
             const std::size_t extra = parametric_ ? 8 * static_cast<std::size_t>(dimension) : 0;
             if (version_ == 40) {
                 for (std::uint64_t i = 0; i < count; ++i) read_node(extra);
@@ -266,10 +255,10 @@ private:
             in_.integer<std::int64_t>("an elementary region");
             const auto nodes = in_.integer<std::int64_t>("a number of nodes");
             if (nodes != type.nodes)
-                in_.fail(format("expected %d nodes (%s), found %lld", type.nodes, type.name, lld(nodes)));
+                in_.fail("expected %d nodes (%s), found %lld", type.nodes, type.name, lld(nodes));
         } else {
             const auto tags = in_.integer<std::int64_t>("a number of tags");
-            if (tags < 0) in_.fail(format("expected a number of tags, found %lld", lld(tags)));
+            if (tags < 0) in_.fail("expected a number of tags, found %lld", lld(tags));
             for (std::int64_t i = 0; i < tags; ++i) in_.integer<std::int64_t>("a tag");
         }
         text_nodes(type);
@@ -293,11 +282,9 @@ private:
         const ElementType& type = checked_type(in_.binary<std::int32_t>(swap_, "an element type"));
         const auto count = in_.binary<std::int32_t>(swap_, "a number of elements");
         const auto tags = in_.binary<std::int32_t>(swap_, "a number of tags");
-        if (count < 1 || static_cast<std::uint64_t>(count) > most || tags < 0) {
-            in_.seek(start);
-            in_.fail(format("expected a block of 1 to %llu elements, found one of %d with %d tags", llu(most),
-                            count, tags));
-        }
+        if (count < 1 || static_cast<std::uint64_t>(count) > most || tags < 0)
+            in_.fail_at(start, "expected a block of 1 to %llu elements, found one of %d with %d tags",
+                        llu(most), count, tags);
         const std::size_t before = 4 * (1 + static_cast<std::size_t>(tags));
         binary_block<std::int32_t>(type, static_cast<std::uint64_t>(count), before);
         return static_cast<std::uint64_t>(count);
@@ -308,8 +295,8 @@ private:
     void binary_block(const ElementType& type, std::uint64_t count, std::size_t before) {
         const std::size_t size = before + type.nodes * sizeof(Integer);
         if (count > in_.remaining() / size)
-            in_.fail(format("expected %llu elements of %zu bytes, but only %zu bytes follow", llu(count),
-                            size, in_.remaining()));
+            in_.fail("expected %llu elements of %zu bytes, but only %zu bytes follow", llu(count), size,
+                     in_.remaining());
         std::vector<std::uint32_t>* const corners = corners_of(type, count);
         if (!corners) {
             in_.take(count * size, "elements");
@@ -343,8 +330,8 @@ private:
             }
             const std::uint64_t count = in_block("elements in this block", binary_ ? 8 : 4);
             if (done + count > total)
-                in_.fail(format("expected %llu elements in all, found a block of %llu after %llu", llu(total),
-                                llu(count), llu(done)));
+                in_.fail("expected %llu elements in all, found a block of %llu after %llu", llu(total),
+                         llu(count), llu(done));
             done += count;
             if (type->cell == Cell::tet || type->cell == Cell::high_tet) {
                 const std::size_t line = binary_ ? 20 : 9; // at least
@@ -407,15 +394,14 @@ private:
     }
     [[noreturn]] void wrong_total(const char* what, std::size_t start, std::uint64_t total,
                                   std::uint64_t found) {
-        in_.seek(start);
-        in_.fail(format("%llu %s are declared, but the blocks hold %llu", llu(total), what, llu(found)));
+        in_.fail_at(start, "%llu %s are declared, but the blocks hold %llu", llu(total), what, llu(found));
     }
 
     const ElementType& checked_type(std::int64_t number) {
         const ElementType& type = element_type(number);
         if (type.nodes == 0)
-            in_.fail(format("expected an element type of the Gmsh manual (1 to 31, 92, 93), found %lld",
-                            lld(number)));
+            in_.fail("expected an element type of the Gmsh manual (1 to 31, 92, 93), found %lld",
+                     lld(number));
         return type;
     }
 

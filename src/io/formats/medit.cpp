@@ -31,12 +31,10 @@ public:
     explicit MeditReader(const File& file) : file_(file), in_(file, '#') {}
 
     MeshData read() {
-        data_.format = VOX_IO_FORMAT_MEDIT;
         in_.skip_space();
         if (!in_.accept("MeshVersionFormatted")) in_.expected("MeshVersionFormatted");
         const auto version = integer<int>("a version");
-        if (version < 1 || version > 4)
-            in_.fail(format("version %d: the versions read are 1 to 4", version), VOX_ERROR_UNSUPPORTED);
+        if (version < 1 || version > 4) in_.unsupported("version %d: the versions read are 1 to 4", version);
         for (in_.skip_space(); !in_.done(); in_.skip_space()) {
             const std::string keyword(in_.peek());
             if (!is_keyword(keyword)) in_.expected("a keyword");
@@ -47,14 +45,10 @@ public:
         }
         if (!have_vertices_) in_.fail("expected a section Vertices, found none");
         const std::size_t vertices = data_.positions.size() / 3;
-        if (highest_at_ > 0 && highest_ >= vertices) {
-            in_.seek(highest_at_);
-            in_.fail(
-                format("expected a vertex number from 1 to %zu, found %llu", vertices, llu(highest_) + 1));
-        }
-        skipped_.report(data_);
-        require_tets(data_, file_.name);
-        return std::move(data_);
+        if (highest_at_ > 0 && highest_ >= vertices)
+            in_.fail_at(highest_at_, "expected a vertex number from 1 to %zu, found %llu", vertices,
+                        llu(highest_) + 1);
+        return finished(std::move(data_), skipped_, file_.name);
     }
 
 private:
@@ -69,7 +63,7 @@ private:
                                            [&](const Section& s) { return keyword == s.keyword; });
         if (keyword == "Dimension") {
             const auto dimension = in_.integer<int>("a dimension");
-            if (dimension != 3) in_.fail(format("expected dimension 3, found %d", dimension));
+            if (dimension != 3) in_.fail("expected dimension 3, found %d", dimension);
             have_dimension_ = true;
         } else if (keyword == "Vertices") {
             read_vertices();
@@ -108,7 +102,7 @@ private:
                 const auto number = integer<std::int64_t>("a vertex number");
                 if (i >= wanted) continue;
                 if (number < 1 || number > static_cast<std::int64_t>(max_count))
-                    in_.fail(format("expected a vertex number, counted from 1, found %lld", lld(number)));
+                    in_.fail("expected a vertex number, counted from 1, found %lld", lld(number));
                 corners.push_back(static_cast<std::uint32_t>(number - 1));
                 if (corners.back() >= highest_) {
                     highest_ = corners.back();

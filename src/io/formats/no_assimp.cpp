@@ -5,7 +5,7 @@ namespace vox::io {
 namespace {
 
 [[noreturn]] void refuse_assimp() {
-    throw Error(VOX_ERROR_UNSUPPORTED, "this vox_io was built without assimp (CMake option VOX_IO_ASSIMP)");
+    throw_error(VOX_ERROR_UNSUPPORTED, "this vox_io was built without assimp (CMake option VOX_IO_ASSIMP)");
 }
 
 } // namespace

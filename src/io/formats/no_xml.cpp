@@ -4,11 +4,10 @@
 namespace vox::io {
 
 MeshData read_vtu(const File& file) {
-    throw Error(
+    throw_error(
         VOX_ERROR_UNSUPPORTED,
-        format(
-            "%s: this vox_io was built without pugixml and zlib, which .vtu needs (CMake option VOX_IO_XML)",
-            file.name.c_str()));
+        "%s: this vox_io was built without pugixml and zlib, which .vtu needs (CMake option VOX_IO_XML)",
+        file.name.c_str());
 }
 
 } // namespace vox::io

@@ -1,6 +1,5 @@
 // Wavefront OBJ (Advanced Visualizer manual, appendix B1): vertices and polygons. Normals, texture
 // coordinates, materials, curves and surfaces are skipped.
-#include "io/formats/indexed_points.hpp"
 #include "io/formats/readers.hpp"
 #include "io/formats/surface_builder.hpp"
 
@@ -10,8 +9,7 @@ namespace {
 class ObjReader {
 public:
     ObjReader(const File& file, std::uint32_t mesh_index)
-        : in_(file, '#'), surface_(file.name, surface_limits(file.bytes.size()), mesh_index),
-          points_(surface_) {}
+        : in_(file, '#'), surface_(file.name, surface_limits(file.bytes.size()), mesh_index) {}
 
     MeshData read() {
         for (in_.skip_space(); !in_.done(); in_.skip_space()) {
@@ -30,7 +28,7 @@ public:
                 refuse_keyword(keyword);
             skip_line();
         }
-        return points_.finish();
+        return surface_.finish();
     }
 
 private:
@@ -74,14 +72,14 @@ private:
                     }
                 }
         }
-        points_.add(p);
+        surface_.point(p);
     }
 
     void read_face() {
         const bool wanted = surface_.begin_element();
         while (!at_end()) {
             const std::uint32_t point = read_corner();
-            if (wanted) surface_.corner(points_.vertex(point));
+            if (wanted) surface_.corner(surface_.vertex_of(point));
         }
         if (wanted) surface_.end_polygon();
     }
@@ -94,11 +92,11 @@ private:
         std::int64_t number = 0;
         const auto [stop, error] = std::from_chars(word.data(), end, number);
         if (error != std::errc{} || (stop != end && *stop != '/')) in_.expected("a vertex number");
-        const auto count = static_cast<std::int64_t>(points_.size());
+        const auto count = static_cast<std::int64_t>(surface_.points());
         if (number < 0) number += count + 1;
         if (number < 1 || number > count)
-            in_.fail(format("expected a vertex number from 1 to %lld, of the vertices above, found %s",
-                            lld(count), printable(word).c_str()));
+            in_.fail("expected a vertex number from 1 to %lld, of the vertices above, found %s", lld(count),
+                     printable(word).c_str());
         in_.word("a vertex number");
         return static_cast<std::uint32_t>(number - 1);
     }
@@ -118,7 +116,6 @@ private:
 
     Scanner in_;
     SurfaceBuilder surface_;
-    IndexedPoints points_;
     std::string_view object_, group_, material_; // the names in force
 };
 

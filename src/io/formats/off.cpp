@@ -1,5 +1,4 @@
 // OFF, the Object File Format of Geomview (http://www.geomview.org/docs/html/OFF.html), ASCII.
-#include "io/formats/indexed_points.hpp"
 #include "io/formats/readers.hpp"
 #include "io/formats/surface_builder.hpp"
 
@@ -21,24 +20,22 @@ std::string_view base_keyword(std::string_view word) {
 
 MeshData read_off(const File& file, std::uint32_t mesh_index) {
     SurfaceBuilder surface(file.name, surface_limits(file.bytes.size()), mesh_index);
-    IndexedPoints points(surface);
     Scanner in(file, '#');
     in.skip_space();
     if (!in.peek().ends_with("OFF")) in.expected("OFF");
     const std::string keyword(in.word("OFF"));
     if (base_keyword(keyword) != "OFF")
-        in.fail(format("%s: only points of three dimensions are read (OFF, with ST, C or N before it)",
-                       printable(keyword, 16).c_str()),
-                VOX_ERROR_UNSUPPORTED);
+        in.unsupported("%s: only points of three dimensions are read (OFF, with ST, C or N before it)",
+                       printable(keyword, 16).c_str());
     in.skip_space();
-    if (in.peek() == "BINARY") in.fail("OFF BINARY is not read", VOX_ERROR_UNSUPPORTED);
+    if (in.peek() == "BINARY") in.unsupported("OFF BINARY is not read");
 
     const auto vertices = in.count("number of vertices", 6, max_count);
     in.skip_space();
     const auto faces = in.count("number of faces", 4, max_count);
     in.skip_line(); // the number of edges, which is often wrong
 
-    points.reserve(vertices);
+    surface.reserve_points(vertices);
     for (std::uint64_t v = 0; v < vertices; ++v) {
         double p[3];
         for (double& x : p) {
@@ -46,7 +43,7 @@ MeshData read_off(const File& file, std::uint32_t mesh_index) {
             x = in.real("a coordinate");
         }
         in.skip_line(); // normal, colour, texture
-        points.add(p);
+        surface.point(p);
     }
     const bool wanted = surface.begin_element();
     for (std::uint64_t f = 0; f < faces; ++f) {
@@ -56,9 +53,9 @@ MeshData read_off(const File& file, std::uint32_t mesh_index) {
             in.skip_space();
             const auto vertex = in.integer<std::uint64_t>("a vertex number");
             if (vertex >= vertices)
-                in.fail(format("expected a vertex number from 0 to %llu, found %llu",
-                               llu(std::max<std::uint64_t>(vertices, 1) - 1), llu(vertex)));
-            if (wanted) surface.corner(points.vertex(static_cast<std::uint32_t>(vertex)));
+                in.fail("expected a vertex number from 0 to %llu, found %llu",
+                        llu(std::max<std::uint64_t>(vertices, 1) - 1), llu(vertex));
+            if (wanted) surface.corner(surface.vertex_of(static_cast<std::uint32_t>(vertex)));
         }
         if (wanted) surface.end_polygon();
         in.skip_line(); // colour

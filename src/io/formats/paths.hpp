@@ -1,7 +1,7 @@
 // Names of files are UTF-8 on every system. Here is the one place that turns them into what the system wants.
 #pragma once
 
-#include "base/error.hpp"
+#include "io/throw_error.hpp"
 
 #include <cstdio>
 #include <filesystem>
@@ -15,7 +15,7 @@ inline std::filesystem::path path_of(const std::string& utf8) {
     try {
         return std::filesystem::path(std::u8string(utf8.begin(), utf8.end()));
     } catch (const std::system_error&) {
-        throw Error(VOX_ERROR_FILE, format("%s: expected a path in UTF-8", utf8.c_str()));
+        throw_error(VOX_ERROR_FILE, "%s: expected a path in UTF-8", utf8.c_str());
     }
 #else
     return utf8; // any bytes, as the system takes them

@@ -1,37 +1,29 @@
 // PLY, text and binary of either byte order (G. Turk, The PLY polygon file format, 1994): the elements
 // "vertex", "face" and "tristrips"; other elements and properties are skipped.
-#include "io/formats/indexed_points.hpp"
+#include "io/formats/number_type.hpp"
 #include "io/formats/readers.hpp"
 #include "io/formats/surface_builder.hpp"
 
 namespace vox::io {
 namespace {
 
-struct PlyType {
-    const char *name, *other_name;
-    std::size_t size;
-};
-
-enum : std::size_t {
-    ply_int8,
-    ply_uint8,
-    ply_int16,
-    ply_uint16,
-    ply_int32,
-    ply_uint32,
-    ply_float,
-    ply_double
-};
-
-constexpr PlyType ply_types[] = {{"char", "int8", 1},     {"uchar", "uint8", 1},   {"short", "int16", 2},
-                                 {"ushort", "uint16", 2}, {"int", "int32", 4},     {"uint", "uint32", 4},
-                                 {"float", "float32", 4}, {"double", "float64", 8}};
+// In the order of NumberType, which has two more.
+constexpr std::string_view ply_types[][2] = {{"char", "int8"},
+                                             {"uchar", "uint8"},
+                                             {"short", "int16"},
+                                             {"ushort", "uint16"},
+                                             {"int", "int32"},
+                                             {"uint", "uint32"},
+                                             {},
+                                             {},
+                                             {"float", "float32"},
+                                             {"double", "float64"}};
 
 struct Property {
     std::string_view name;
-    std::size_t type = 0;
+    NumberType type{};
     bool is_list = false;
-    std::size_t count_type = 0; // of a list
+    NumberType count_type{}; // of a list
 };
 
 struct Element {
@@ -46,7 +38,7 @@ class PlyReader {
 
 public:
     PlyReader(const File& file, std::uint32_t mesh_index)
-        : in_(file), surface_(file.name, surface_limits(file.bytes.size()), mesh_index), points_(surface_) {}
+        : in_(file), surface_(file.name, surface_limits(file.bytes.size()), mesh_index) {}
 
     MeshData read() {
         read_header();
@@ -68,7 +60,7 @@ public:
         }
         if (text_) in_.skip_space();
         if (!in_.done()) in_.expected("the end of the file after the last element");
-        return points_.finish();
+        return surface_.finish();
     }
 
 private:
@@ -85,16 +77,16 @@ private:
         else if (format_name == "binary_big_endian")
             swap_ = !host_is_big_endian;
         else if (!text_)
-            in_.fail(format("format %s: ascii, binary_little_endian and binary_big_endian are read",
-                            printable(format_name).c_str()),
-                     VOX_ERROR_UNSUPPORTED);
+            in_.unsupported("format %s: ascii, binary_little_endian and binary_big_endian are read",
+                            printable(format_name).c_str());
         if (in_.peek() != "1.0") in_.expected("version 1.0");
         in_.word("version 1.0");
         std::size_t lines = 0;
         for (next_line(); !in_.accept("end_header"); next_line()) {
             if (in_.accept("comment") || in_.accept("obj_info")) continue;
             if (++lines > most_lines)
-                in_.fail(format("more than %zu elements and properties", most_lines), VOX_ERROR_LIMIT);
+                throw_error(VOX_ERROR_LIMIT, "%s: more than %zu elements and properties", in_.place().c_str(),
+                            most_lines);
             if (in_.accept("element"))
                 read_element();
             else if (in_.accept("property") && !elements_.empty())
@@ -134,7 +126,7 @@ private:
         property.is_list = in_.accept("list");
         if (property.is_list) {
             property.count_type = read_type();
-            if (property.count_type >= ply_float)
+            if (!is_integer(property.count_type))
                 in_.fail("expected an integer type for the length of a list");
         }
         property.type = read_type();
@@ -142,12 +134,12 @@ private:
         elements_.back().properties.push_back(property);
     }
 
-    std::size_t read_type() {
+    NumberType read_type() {
         const std::string_view word = in_.peek();
         for (std::size_t i = 0; i < std::size(ply_types); ++i)
-            if (word == ply_types[i].name || word == ply_types[i].other_name) {
+            if (!word.empty() && (word == ply_types[i][0] || word == ply_types[i][1])) {
                 in_.word("a type");
-                return i;
+                return static_cast<NumberType>(i);
             }
         in_.expected("a type, char to double or int8 to float64");
     }
@@ -156,12 +148,11 @@ private:
     void check_count(const Element& element) {
         std::size_t bytes = 0;
         for (const Property& property : element.properties)
-            bytes += text_ ? 2 : ply_types[property.is_list ? property.count_type : property.type].size;
+            bytes += text_ ? 2 : size_of(property.is_list ? property.count_type : property.type);
         if (text_ && bytes > 0) --bytes; // the file may end without a line end
         if (bytes == 0 && element.count > 0)
-            throw Error(VOX_ERROR_FORMAT,
-                        format("%s: element %s: expected properties, found none",
-                               in_.place(element.counted_at).c_str(), printable(element.name).c_str()));
+            in_.fail_at(element.counted_at, "element %s: expected properties, found none",
+                        printable(element.name).c_str());
         const std::string what = "number of elements " + printable(element.name);
         if (bytes > 0) in_.check_count(what.c_str(), element.count, bytes, max_count, element.counted_at);
     }
@@ -177,56 +168,36 @@ private:
     }
 
     template <class Number>
-    Number value(std::size_t type, const char* what) {
-        const char* const bytes = in_.take(ply_types[type].size, what);
-        switch (type) {
-        case ply_int8:
-            return static_cast<Number>(load<std::int8_t>(bytes, false));
-        case ply_uint8:
-            return static_cast<Number>(load<std::uint8_t>(bytes, false));
-        case ply_int16:
-            return static_cast<Number>(load<std::int16_t>(bytes, swap_));
-        case ply_uint16:
-            return static_cast<Number>(load<std::uint16_t>(bytes, swap_));
-        case ply_int32:
-            return static_cast<Number>(load<std::int32_t>(bytes, swap_));
-        case ply_uint32:
-            return static_cast<Number>(load<std::uint32_t>(bytes, swap_));
-        case ply_float:
-            return static_cast<Number>(load<float>(bytes, swap_));
-        default:
-            return static_cast<Number>(load<double>(bytes, swap_));
-        }
+    Number value(NumberType type, const char* what) {
+        return load_as<Number>(type, in_.take(size_of(type), what), swap_);
     }
-    std::int64_t integer(std::size_t type, const char* what) {
+    std::int64_t integer(NumberType type, const char* what) {
         return text_ ? in_.integer<std::int64_t>(what) : value<std::int64_t>(type, what);
     }
-    double real(std::size_t type, const char* what) {
+    double real(NumberType type, const char* what) {
         if (text_) return in_.real(what);
         const std::size_t at = in_.offset();
         const auto x = value<double>(type, what);
         if (std::isfinite(x)) return x;
-        in_.seek(at);
-        in_.fail(format("expected %s, found %g, which is not finite", what, x));
+        in_.fail_at(at, "expected %s, found %g, which is not finite", what, x);
     }
 
     std::uint64_t length_of_list(const Property& property) {
         const std::size_t at = in_.offset();
         const std::int64_t length = integer(property.count_type, "the length of a list");
-        const std::size_t bytes = text_ ? 2 : ply_types[property.type].size;
+        const std::size_t bytes = text_ ? 2 : size_of(property.type);
         const auto most = (in_.remaining() + 1) / bytes; // the file may end without a line end
         if (length >= 0 && static_cast<std::uint64_t>(length) <= most)
             return static_cast<std::uint64_t>(length);
-        in_.seek(at);
-        in_.fail(
-            format("expected the length of a list, at most %llu for what is left of the file, found %lld",
-                   llu(most), lld(length)));
+        in_.fail_at(at,
+                    "expected the length of a list, at most %llu for what is left of the file, found %lld",
+                    llu(most), lld(length));
     }
 
     void skip(const Property& property) {
         const std::uint64_t values = property.is_list ? length_of_list(property) : 1;
         if (!text_) {
-            in_.take(values * ply_types[property.type].size, "a property");
+            in_.take(values * size_of(property.type), "a property");
             return;
         }
         for (std::uint64_t i = 0; i < values; ++i) in_.word("a value");
@@ -244,12 +215,10 @@ private:
         }
         for (std::size_t k = 0; k < 3; ++k)
             if (axis_of[k] < 0)
-                throw Error(VOX_ERROR_FORMAT, format("%s: vertices: expected a property %c, found none",
-                                                     in_.place(element.counted_at).c_str(), "xyz"[k]));
-        if (points_.size() > 0)
-            throw Error(VOX_ERROR_FORMAT, format("%s: expected one element vertex, found another",
-                                                 in_.place(element.counted_at).c_str()));
-        points_.reserve(element.count);
+                in_.fail_at(element.counted_at, "vertices: expected a property %c, found none", "xyz"[k]);
+        if (surface_.points() > 0)
+            in_.fail_at(element.counted_at, "expected one element vertex, found another");
+        surface_.reserve_points(element.count);
         for (std::uint64_t v = 0; v < element.count; ++v) {
             double p[3];
             begin_item();
@@ -265,9 +234,9 @@ private:
                     skip(element.properties[i]);
             }
             end_item();
-            points_.add(p);
+            surface_.point(p);
         }
-        surface_.reserve(std::min(points_.size(), in_.remaining()));
+        surface_.reserve(std::min(surface_.points(), in_.remaining()));
     }
 
     // Calls visit(point) for each value of the list in `element` that numbers vertices; -1, where strips end,
@@ -278,10 +247,10 @@ private:
             return property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index");
         };
         const auto indices = std::find_if(element.properties.begin(), element.properties.end(), is_indices);
-        if (indices == element.properties.end() || indices->type >= ply_float)
-            throw Error(VOX_ERROR_FORMAT,
-                        format("%s: element %s: expected a list of integers vertex_indices, found none",
-                               in_.place(element.counted_at).c_str(), printable(element.name).c_str()));
+        if (indices == element.properties.end() || !is_integer(indices->type))
+            in_.fail_at(element.counted_at,
+                        "element %s: expected a list of integers vertex_indices, found none",
+                        printable(element.name).c_str());
         for (std::uint64_t i = 0; i < element.count; ++i) {
             begin_item();
             for (const Property& property : element.properties) {
@@ -293,12 +262,10 @@ private:
                 for (std::uint64_t c = 0; c < length; ++c) {
                     const std::size_t at = in_.offset();
                     const std::int64_t point = integer(property.type, "a vertex number");
-                    if ((point < 0 || point >= static_cast<std::int64_t>(points_.size())) &&
-                        !(ends && point == -1)) {
-                        in_.seek(at);
-                        in_.fail(format("expected a vertex number below %llu, found %lld",
-                                        llu(points_.size()), lld(point)));
-                    }
+                    if ((point < 0 || point >= static_cast<std::int64_t>(surface_.points())) &&
+                        !(ends && point == -1))
+                        in_.fail_at(at, "expected a vertex number below %llu, found %lld",
+                                    llu(surface_.points()), lld(point));
                     visit(point);
                 }
             }
@@ -312,7 +279,7 @@ private:
         read_lists(
             element, false,
             [&](std::int64_t point) {
-                if (wanted) surface_.corner(points_.vertex(static_cast<std::uint32_t>(point)));
+                if (wanted) surface_.corner(surface_.vertex_of(static_cast<std::uint32_t>(point)));
             },
             [&] {
                 if (wanted) surface_.end_polygon();
@@ -332,7 +299,7 @@ private:
                     length = 0;
                     return;
                 }
-                const std::uint32_t vertex = points_.vertex(static_cast<std::uint32_t>(point));
+                const std::uint32_t vertex = surface_.vertex_of(static_cast<std::uint32_t>(point));
                 if (length >= 2) surface_.triangle(last[0], last[1], vertex);
                 last[length % 2] = vertex;
                 ++length;
@@ -346,7 +313,6 @@ private:
     bool lone_returns_ = false; // lines end in a carriage return alone
     std::vector<Element> elements_;
     SurfaceBuilder surface_;
-    IndexedPoints points_;
 };
 
 } // namespace

@@ -17,9 +17,12 @@ MeshData read_vega(const File& file);
 MeshData read_vtk(const File& file);
 MeshData read_vtu(const File& file);
 
-// Surfaces, as triangles. mesh_index counts from 0, or is all_meshes. Files that a .gltf names are looked for
-// in `folder`; without one it must be complete.
-MeshData read_surface(const File& file, const std::optional<std::string>& folder, std::uint32_t mesh_index);
+// Reads any format but TetGen, which needs two files. mesh_index, of surfaces, counts from 0, or is
+// all_meshes. Files that a .gltf names are looked for in `folder`; without one it must be complete.
+MeshData read_mesh(const File& file, const std::optional<std::string>& folder, vox_io_format format,
+                   std::uint32_t mesh_index);
+
+// Surfaces, as triangles.
 MeshData read_gltf(const File& file, const std::optional<std::string>& folder, std::uint32_t mesh_index);
 MeshData read_obj(const File& file, std::uint32_t mesh_index);
 MeshData read_off(const File& file, std::uint32_t mesh_index);
@@ -58,22 +61,16 @@ enum class Cell : std::uint8_t {
 };
 
 // Counts skipped cells, and by name those that are volume elements.
-class Skipped {
-public:
+struct Skipped {
     void add(Cell cell, const char* name, std::uint64_t number);
-    void report(MeshData& data) const;
 
-private:
-    struct Kind {
-        std::string name;
-        std::uint64_t number;
-    };
-    std::vector<Kind> volumes_;
-    std::uint64_t elements_ = 0;
+    std::vector<std::pair<std::string, std::uint64_t>> volumes;
+    std::uint64_t elements = 0;
 };
 
-// Throws, naming the file, if data holds no tet. Every reader of a tet format ends with this.
-void require_tets(const MeshData& data, const std::string& name);
+// What every reader of tets ends with: `data`, with what was skipped. Throws, naming the file, if it holds no
+// tet.
+MeshData finished(MeshData data, const Skipped& skipped, const std::string& name);
 
 // The largest number of vertices, and of tets, of a mesh.
 inline constexpr std::uint64_t max_count = VOX_MAX_VERTICES;

@@ -1,10 +1,10 @@
 // Reads text and binary mesh files from memory in one pass, without copies. Every failure names its place.
 #pragma once
 
-#include "base/error.hpp"
 #include "base/llu.hpp"
 #include "io/formats/decimal.hpp"
 #include "io/progress.hpp"
+#include "io/throw_error.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -56,7 +56,9 @@ public:
     // Throws "FILE, line N: expected WHAT, found ..." with the word at this place.
     [[noreturn]] void expected(const char* what);
     // Throws "FILE, line N: TEXT".
-    [[noreturn]] void fail(const std::string& text, vox_result result = VOX_ERROR_FORMAT) const;
+    VOX_PRINTF(2) [[noreturn]] void fail(const char* pattern, ...) const;
+    VOX_PRINTF(3) [[noreturn]] void fail_at(std::size_t offset, const char* pattern, ...) const;
+    VOX_PRINTF(2) [[noreturn]] void unsupported(const char* pattern, ...) const;
 
     // ---- text ----
 
@@ -126,11 +128,8 @@ public:
         const auto [stop, error] = read_double(start, end_, value);
         if (error == std::errc::invalid_argument || !at_word_end(stop)) expected(what);
         // A number too small for a double is read as zero, as by C's strtod; a number too large fails.
-        if (error == std::errc::result_out_of_range) {
-            if (!is_tiny({start, static_cast<std::size_t>(stop - start)})) out_of_range(what);
-        } else if (!std::isfinite(value)) {
-            expected("a finite number");
-        }
+        if (error == std::errc::result_out_of_range && value != 0) out_of_range(what);
+        if (!std::isfinite(value)) expected("a finite number");
         at_ = stop;
         return value;
     }
@@ -151,8 +150,7 @@ public:
 
     const char* take(std::size_t size, const char* what) {
         if (size > remaining())
-            fail(format("expected %zu bytes (%s), found the end of the file after %zu", size, what,
-                        remaining()));
+            fail("expected %zu bytes (%s), found the end of the file after %zu", size, what, remaining());
         note_progress();
         const char* data = at_;
         at_ += size;
@@ -160,9 +158,6 @@ public:
     }
     template <class T>
     T binary(bool swap, const char* what);
-
-    // Whether a decimal number that is out of a double's range is too small rather than too large.
-    static bool is_tiny(std::string_view number) noexcept;
 
     static bool is_blank(char c) noexcept { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
     static bool is_line_end(char c) noexcept { return c == '\n' || c == '\r'; }
@@ -212,6 +207,10 @@ T load(const char* data, bool swap) noexcept {
 template <class T>
 T Scanner::binary(bool swap, const char* what) {
     return load<T>(take(sizeof(T), what), swap);
+}
+
+inline bool is_finite(const double p[3]) {
+    return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
 }
 
 inline constexpr bool host_is_big_endian = std::endian::native == std::endian::big;

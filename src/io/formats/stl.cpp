@@ -69,8 +69,8 @@ MeshData read_stl_binary(const File& file, std::uint32_t mesh_index) {
     const std::uint64_t facets = in.binary<std::uint32_t>(host_is_big_endian, "the number of triangles");
     in.check_count("number of triangles", facets, stl_facet, max_count, counted_at);
     if (in.remaining() != facets * stl_facet)
-        in.fail(format("expected the end of the file after %llu triangles, found %llu bytes more",
-                       llu(facets), llu(in.remaining() - facets * stl_facet)));
+        in.fail("expected the end of the file after %llu triangles, found %llu bytes more", llu(facets),
+                llu(in.remaining() - facets * stl_facet));
     SurfaceBuilder surface(file.name, surface_limits(file.bytes.size()), mesh_index);
     for (std::uint64_t f = 0; f < facets; ++f) {
         const char* const bytes = in.take(stl_facet, "a triangle");
@@ -80,11 +80,10 @@ MeshData read_stl_binary(const File& file, std::uint32_t mesh_index) {
             double p[3];
             for (std::size_t k = 0; k < 3; ++k) {
                 p[k] = static_cast<double>(load<float>(bytes + 12 + 12 * i + 4 * k, host_is_big_endian));
-                if (!std::isfinite(p[k])) {
-                    in.seek(in.offset() - stl_facet + 12 + 12 * i + 4 * k);
-                    in.fail(format("triangle %llu: expected a coordinate, found %g, which is not finite",
-                                   llu(f), p[k]));
-                }
+                if (!std::isfinite(p[k]))
+                    in.fail_at(in.offset() - stl_facet + 12 + 12 * i + 4 * k,
+                               "triangle %llu: expected a coordinate, found %g, which is not finite", llu(f),
+                               p[k]);
             }
             corners[i] = surface.vertex(p);
         }

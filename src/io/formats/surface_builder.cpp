@@ -1,8 +1,8 @@
 #include "io/formats/surface_builder.hpp"
 
-#include "base/error.hpp"
 #include "base/llu.hpp"
 #include "io/formats/readers.hpp"
+#include "io/throw_error.hpp"
 
 #include <cmath>
 #include <utility>
@@ -12,14 +12,11 @@ namespace vox::io {
 SurfaceBuilder::SurfaceBuilder(std::string name, const SurfaceLimits& limits, std::uint32_t mesh_index)
     : name_(std::move(name)), limits_{std::min(limits.triangles, max_count),
                                       std::min(limits.vertices, max_count)},
-      mesh_index_(mesh_index), work_left_(128 * limits_.triangles), table_(data_.positions) {
-    data_.format = VOX_IO_FORMAT_SURFACE;
-}
+      mesh_index_(mesh_index), work_left_(128 * limits_.triangles), table_(data_.positions) {}
 
 void SurfaceBuilder::too_many(const char* what, std::uint64_t limit) const {
-    throw Error(VOX_ERROR_LIMIT,
-                format("%s: the surface has more %s than the limit of %llu for a file of its size",
-                       name_.c_str(), what, llu(limit)));
+    throw_error(VOX_ERROR_LIMIT, "%s: the surface has more %s than the limit of %llu for a file of its size",
+                name_.c_str(), what, llu(limit));
 }
 
 std::uint32_t SurfaceBuilder::vertex(const double p[3]) {
@@ -38,6 +35,21 @@ std::uint32_t SurfaceBuilder::vertex(const double p[3]) {
 void SurfaceBuilder::reserve(std::size_t vertices) {
     data_.positions.reserve(3 * vertices);
     table_.reserve(data_.positions.capacity() / 3);
+}
+
+void SurfaceBuilder::reserve_points(std::size_t count) {
+    check_vertices(count);
+    points_.reserve(3 * count);
+    vertex_of_.reserve(count);
+}
+
+void SurfaceBuilder::point(const double p[3]) {
+    if (points() == vertex_of_.capacity()) {
+        check_vertices(points() + 1);
+        reserve_points(room_for(points() + 1, limits_.vertices));
+    }
+    points_.insert(points_.end(), p, p + 3);
+    vertex_of_.push_back(none);
 }
 
 void SurfaceBuilder::triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
@@ -133,21 +145,20 @@ void SurfaceBuilder::check_mesh_index(std::uint64_t meshes) const {
 }
 
 MeshData SurfaceBuilder::finish() {
+    if (!has_elements_ && points() > 0) {
+        check_mesh_index(1);
+        data_.positions = std::move(points_);
+        data_.notes.push_back("there are no triangles: points alone");
+        return std::move(data_);
+    }
     check_mesh_index(meshes_);
     if (data_.triangles.empty())
-        throw Error(VOX_ERROR_FORMAT, format("%s: expected triangles, found none", name_.c_str()));
+        throw_error(VOX_ERROR_FORMAT, "%s: expected triangles, found none", name_.c_str());
     if (uncut_ > 0)
         data_.notes.push_back(format("%llu polygon%s not convex and %s too many corners to be cut with care: "
                                      "triangles may lie outside",
                                      llu(uncut_), uncut_ == 1 ? " is" : "s are",
                                      uncut_ == 1 ? "has" : "have"));
-    return std::move(data_);
-}
-
-MeshData SurfaceBuilder::finish_points(std::vector<double> positions) {
-    check_mesh_index(1);
-    data_.positions = std::move(positions);
-    data_.notes.push_back("there are no triangles: points alone");
     return std::move(data_);
 }
 

@@ -20,10 +20,11 @@ struct SurfaceLimits {
 // that show a mesh many times can stand for any number. With these limits no file takes more memory than
 // 12 S and 14 MB, and so no more than 16 S and 16 MB, the report and the text of a pipe (2 S) included.
 // While it is read, in bytes:
-//   42 a vertex (24, 8 in the hash table, at most 10 in its tree), 45 for half as many while room is made,
-//   and 18 a triangle while room is made:                                            7.2 S and 7.9 MB
+//   32 a vertex (24, 8 in the hash table), 45 for half as many while room is made, and 18 a triangle while
+//   room is made (where vertices collide in the table, 48 more, but then each has three long numbers):
+//                                                                                    7.2 S and 7.9 MB
 //   28 a point and 12 a corner of a polygon, at most as many as vertices and triangles: 4.8 S and 5.3 MB
-//   or, for glTF, what is kept of the document (formats/gltf_document.hpp):          4.3 S
+//   or, for glTF, what is kept of the document (formats/gltf_document.hpp):          6 S
 // Then, with the report, 32 a vertex and 24 a triangle:                              7.2 S and 7.4 MB
 constexpr SurfaceLimits surface_limits(std::uint64_t bytes) {
     constexpr std::uint64_t at_least = std::uint64_t{1} << 17;
@@ -74,15 +75,22 @@ public:
     void end_polygon();
     void skip(std::uint64_t elements) noexcept { data_.skipped_elements += elements; }
 
-    bool has_elements() const noexcept { return has_elements_; }
+    // Points, which elements name by number. There may be as many as vertices.
+    std::size_t points() const noexcept { return vertex_of_.size(); }
+    void reserve_points(std::size_t count);
+    void point(const double p[3]); // finite
+    std::uint32_t vertex_of(std::uint32_t point) {
+        if (vertex_of_[point] == none) vertex_of_[point] = vertex(&points_[3 * std::size_t{point}]);
+        return vertex_of_[point];
+    }
 
-    // Throws if there is no triangle, or no mesh with the index that was asked for.
+    // Throws if there is no triangle, or no mesh with the index that was asked for. A file without elements
+    // gives its points, which are one mesh and not merged.
     MeshData finish();
-    // A file without elements: points alone, which are one mesh and not merged. Throws if another one was
-    // asked for.
-    MeshData finish_points(std::vector<double> positions);
 
 private:
+    static constexpr std::uint32_t none = 0xffffffffu;
+
     struct Plane { // of two axes, in which a polygon is seen
         int axes[2];
         double sign; // 1, or -1 where the polygon is clockwise
@@ -103,6 +111,8 @@ private:
     std::uint64_t work_left_;            // how many corners may still be compared with ears
     std::uint64_t uncut_ = 0;            // polygons for which that did not suffice
     std::vector<std::uint32_t> corners_; // of the polygon at hand
+    std::vector<double> points_;
+    std::vector<std::uint32_t> vertex_of_; // of each point, or none
     MeshData data_;
     PositionTable table_;
 };

@@ -11,7 +11,7 @@ void read_nodes(const File& file, MeshData& data, NodeNumbers& numbers) {
 
     const auto count = in.count("number of nodes", 1, max_count);
     const auto dimension = in.integer<std::int64_t>("number of dimensions");
-    if (dimension != 3) in.fail(format("expected 3 dimensions, found %lld", lld(dimension)));
+    if (dimension != 3) in.fail("expected 3 dimensions, found %lld", lld(dimension));
     in.skip_line();
     in.check_count("number of nodes", count, 7, max_count, in.offset()); // a node is at least "0 0 0 0"
     data.positions.reserve(3 * count);
@@ -32,7 +32,7 @@ void read_tets(const File& file, const NodeNumbers& numbers, MeshData& data) {
     const auto count = in.count("number of tetrahedra", 1, max_count);
     const auto corners = in.integer<std::int64_t>("number of nodes per tetrahedron");
     if (corners != 4 && corners != 10)
-        in.fail(format("expected 4 or 10 nodes per tetrahedron, found %lld", lld(corners)));
+        in.fail("expected 4 or 10 nodes per tetrahedron, found %lld", lld(corners));
     in.skip_line();
     in.check_count("number of tetrahedra", count, 9, max_count, in.offset());
     data.tets.reserve(4 * count);
@@ -55,12 +55,10 @@ void read_tets(const File& file, const NodeNumbers& numbers, MeshData& data) {
 
 MeshData read_tetgen(const File& node, const File& ele) {
     MeshData data;
-    data.format = VOX_IO_FORMAT_TETGEN;
     NodeNumbers numbers;
     read_nodes(node, data, numbers);
     read_tets(ele, numbers, data);
-    require_tets(data, ele.name);
-    return data;
+    return finished(std::move(data), {}, ele.name);
 }
 
 } // namespace vox::io

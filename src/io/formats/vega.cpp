@@ -7,7 +7,6 @@ namespace vox::io {
 
 MeshData read_vega(const File& file) {
     MeshData data;
-    data.format = VOX_IO_FORMAT_VEGA;
     Scanner in(file, '#');
     NodeNumbers numbers("vertex", "vertices");
     Skipped skipped;
@@ -15,17 +14,16 @@ MeshData read_vega(const File& file) {
     for (in.skip_space(); !in.done(); in.skip_space()) {
         const std::string keyword(in.peek());
         if (!keyword.starts_with('*')) in.expected("a section (*...)");
-        if (keyword == "*INCLUDE") in.fail("*INCLUDE of another file is not read", VOX_ERROR_UNSUPPORTED);
+        if (keyword == "*INCLUDE") in.unsupported("*INCLUDE of another file is not read");
         in.skip_line();
         if (keyword == "*VERTICES") {
             if (have_vertices) in.fail("expected one section *VERTICES, found a second one");
             have_vertices = true;
             in.skip_space();
-            if (in.peek() == "*INCLUDE")
-                in.fail("*INCLUDE of another file is not read", VOX_ERROR_UNSUPPORTED);
+            if (in.peek() == "*INCLUDE") in.unsupported("*INCLUDE of another file is not read");
             const auto count = in.count("number of vertices", 7, max_count);
             const auto dimension = in.integer<std::int64_t>("number of dimensions");
-            if (dimension != 3) in.fail(format("expected 3 dimensions, found %lld", lld(dimension)));
+            if (dimension != 3) in.fail("expected 3 dimensions, found %lld", lld(dimension));
             in.skip_line();
             data.positions.reserve(3 * count);
             for (std::uint64_t i = 0; i < count; ++i) {
@@ -42,13 +40,12 @@ MeshData read_vega(const File& file) {
             const std::string kind(in.word("an element kind (TET or CUBIC)"));
             const bool tets = kind == "TET" || kind == "TETS";
             if (!tets && kind != "CUBIC")
-                in.fail(
-                    format("expected an element kind (TET or CUBIC), found \"%s\"", printable(kind).c_str()));
+                in.fail("expected an element kind (TET or CUBIC), found \"%s\"", printable(kind).c_str());
             in.skip_space();
             const auto count = in.count("number of elements", 9, max_count);
             const auto corners = in.integer<std::int64_t>("number of vertices per element");
             if (corners != (tets ? 4 : 8))
-                in.fail(format("expected %d vertices per element, found %lld", tets ? 4 : 8, lld(corners)));
+                in.fail("expected %d vertices per element, found %lld", tets ? 4 : 8, lld(corners));
             in.skip_line();
             if (tets) data.tets.reserve(data.tets.size() + 4 * count);
             for (std::uint64_t e = 0; e < count; ++e) {
@@ -72,9 +69,7 @@ MeshData read_vega(const File& file) {
     }
     if (!have_vertices) in.fail("expected a section *VERTICES, found none");
     if (!have_elements) in.fail("expected a section *ELEMENTS, found none");
-    skipped.report(data);
-    require_tets(data, file.name);
-    return data;
+    return finished(std::move(data), skipped, file.name);
 }
 
 } // namespace vox::io

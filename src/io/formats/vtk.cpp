@@ -12,7 +12,6 @@ public:
     explicit VtkReader(const File& file) : file_(file), in_(file) {}
 
     MeshData read() {
-        data_.format = VOX_IO_FORMAT_VTK;
         read_header();
         while (next_keyword()) {
             const std::size_t start = in_.offset();
@@ -38,20 +37,15 @@ public:
         if (!have_points_) in_.expected("POINTS");
         if (!have_cells_) in_.expected("CELLS");
         if (!have_types_) in_.expected("CELL_TYPES");
-        if (types_.size() != ends_.size()) {
-            in_.seek(types_at_);
-            in_.fail(
-                format("expected %zu cell types, as many as cells, found %zu", ends_.size(), types_.size()));
-        }
+        if (types_.size() != ends_.size())
+            in_.fail_at(types_at_, "expected %zu cell types, as many as cells, found %zu", ends_.size(),
+                        types_.size());
         Skipped skipped;
         take_vtk_cells(ends_, connectivity_, types_, 0, data_.positions.size() / 3, data_, skipped,
                        [&](std::size_t cell, const std::string& text) {
-                           in_.seek(cells_at_);
-                           in_.fail(format("cell %zu: %s", cell, text.c_str()));
+                           in_.fail_at(cells_at_, "cell %zu: %s", cell, text.c_str());
                        });
-        skipped.report(data_);
-        require_tets(data_, file_.name);
-        return std::move(data_);
+        return finished(std::move(data_), skipped, file_.name);
     }
 
 private:
@@ -61,7 +55,7 @@ private:
         for (int i = 0; i < 4; ++i) in_.word("# vtk DataFile Version");
         const double version = in_.real("a version");
         if (!(version >= 1 && version < 6))
-            in_.fail(format("version %g: the versions read are 1.0 to 5.1", version), VOX_ERROR_UNSUPPORTED);
+            in_.unsupported("version %g: the versions read are 1.0 to 5.1", version);
         in_.line_end();
         in_.skip_line(); // title
         in_.skip_space();
@@ -82,14 +76,11 @@ private:
         return !in_.done();
     }
 
-    VtkNumber number_type(const char* what) {
-        const std::size_t start = in_.offset();
-        const VtkNumber type = vtk_number(in_.word(what));
-        if (type == VtkNumber::none) {
-            in_.seek(start);
-            in_.expected(what);
-        }
-        return type;
+    NumberType number_type(const char* what) {
+        const std::optional<NumberType> type = vtk_number(in_.peek());
+        if (!type) in_.expected(what);
+        in_.word(what);
+        return *type;
     }
 
     // Reads a count of values that each take at least `size` bytes in a binary file.
@@ -98,14 +89,13 @@ private:
     }
 
     template <class Out>
-    void read_numbers(VtkNumber type, std::uint64_t number, std::vector<Out>& out, const char* what) {
+    void read_numbers(NumberType type, std::uint64_t number, std::vector<Out>& out, const char* what) {
         in_.line_end();
         const std::size_t least = binary_ ? size_of(type) : 2; // the last number may lack its blank
         in_.check_count(what, number > 0 && !binary_ ? number - 1 : number, least, max_count * 8,
                         in_.offset());
         out.reserve(out.size() + number);
-        if (binary_)
-            return append_vtk_numbers(type, in_.take(number * size_of(type), what), number, swap, out);
+        if (binary_) return append_numbers(type, in_.take(number * size_of(type), what), number, swap, out);
         for (std::uint64_t i = 0; i < number; ++i) {
             in_.skip_space();
             if constexpr (std::is_floating_point_v<Out>)
@@ -119,14 +109,12 @@ private:
         if (have_points_) in_.fail("expected one section POINTS, found a second one");
         have_points_ = true;
         const std::uint64_t points = in_.count("number of points", 3, max_count);
-        const VtkNumber type = number_type("a number type (float, double ...)");
+        const NumberType type = number_type("a number type (float, double ...)");
         const std::size_t start = in_.offset();
         read_numbers(type, 3 * points, data_.positions, "coordinates");
         for (std::size_t i = 0; i < data_.positions.size(); ++i)
-            if (!std::isfinite(data_.positions[i])) {
-                in_.seek(start);
-                in_.fail(format("point %zu: expected a coordinate, found one that is not finite", i / 3));
-            }
+            if (!std::isfinite(data_.positions[i]))
+                in_.fail_at(start, "point %zu: expected a coordinate, found one that is not finite", i / 3);
     }
 
     void read_cells() {
@@ -138,42 +126,37 @@ private:
         in_.line_end();
         if (next_keyword() && in_.accept("OFFSETS")) {
             // Version 5.1 has `first` offsets, one more than cells, and `second` points.
-            const VtkNumber offset_type = number_type("a number type (vtktypeint64 ...)");
+            const NumberType offset_type = number_type("a number type (vtktypeint64 ...)");
             read_numbers(offset_type, first, ends_, "offsets");
             if (ends_.empty() || ends_[0] != 0) in_.fail("expected offsets that start with 0");
             ends_.erase(ends_.begin());
             in_.skip_space();
             if (!in_.accept("CONNECTIVITY")) in_.expected("CONNECTIVITY");
-            const VtkNumber point_type = number_type("a number type (vtktypeint64 ...)");
+            const NumberType point_type = number_type("a number type (vtktypeint64 ...)");
             read_numbers(point_type, second, connectivity_, "points of cells");
             if (!ends_.empty() && ends_.back() != second)
-                in_.fail(format("expected offsets that end with %llu, found %llu", llu(second),
-                                llu(ends_.back())));
+                in_.fail("expected offsets that end with %llu, found %llu", llu(second), llu(ends_.back()));
             return;
         }
         // Earlier versions have `first` cells, each as its number of points and the points, `second` numbers
         // in all.
         in_.seek(start);
         std::vector<std::uint64_t>& list = connectivity_;
-        read_numbers(VtkNumber::i32, second, list, "points of cells");
+        read_numbers(NumberType::int32, second, list, "points of cells");
         ends_.reserve(std::min(first, second));
         std::uint64_t from = 0, to = 0;
         for (std::uint64_t c = 0; c < first; ++c) {
             const std::uint64_t points = from < second ? list[from] : 0;
-            if (from >= second || points > second - from - 1) {
-                in_.seek(start);
-                in_.fail(format("expected %llu cells in %llu numbers, found only %llu", llu(first),
-                                llu(second), llu(c)));
-            }
+            if (from >= second || points > second - from - 1)
+                in_.fail_at(start, "expected %llu cells in %llu numbers, found only %llu", llu(first),
+                            llu(second), llu(c));
             for (std::uint64_t i = 0; i < points; ++i) list[to++] = list[from + 1 + i]; // drop the counts
             from += 1 + points;
             ends_.push_back(to);
         }
-        if (from != second) {
-            in_.seek(start);
-            in_.fail(format("expected the %llu cells to fill %llu numbers, found %llu", llu(first),
-                            llu(second), llu(from)));
-        }
+        if (from != second)
+            in_.fail_at(start, "expected the %llu cells to fill %llu numbers, found %llu", llu(first),
+                        llu(second), llu(from));
         list.resize(to);
     }
 
@@ -182,7 +165,7 @@ private:
         have_types_ = true;
         types_at_ = in_.offset();
         const std::uint64_t number = count("number of cell types", 4);
-        read_numbers(VtkNumber::i32, number, types_, "a cell type");
+        read_numbers(NumberType::int32, number, types_, "a cell type");
     }
 
     // A field is its name, the number of arrays, and for each array its name, components, tuples, type and
@@ -197,20 +180,19 @@ private:
             const std::uint64_t components = count("number of components", 1);
             const std::uint64_t tuples = count("number of tuples", 1);
             const std::string type_name(in_.word("a number type"));
-            const VtkNumber type = vtk_number(type_name);
-            if (binary_ && type == VtkNumber::none)
-                in_.fail(
-                    format("a field of type %s in a binary file is not read", printable(type_name).c_str()),
-                    VOX_ERROR_UNSUPPORTED);
+            const std::optional<NumberType> type = vtk_number(type_name);
+            if (binary_ && !type)
+                in_.unsupported("a field of type %s in a binary file is not read",
+                                printable(type_name).c_str());
             in_.line_end();
             if (tuples > 0) {
-                const std::size_t size = binary_ ? size_of(type) : 1;
+                const std::size_t size = binary_ ? size_of(*type) : 1;
                 in_.check_count("values of the array", components, size * tuples, max_count * 8,
                                 in_.offset());
             }
             const std::uint64_t values = components * tuples;
             if (binary_) {
-                in_.take(values * size_of(type), "values of the array");
+                in_.take(values * size_of(*type), "values of the array");
                 continue;
             }
             for (std::uint64_t i = 0; i < values; ++i) {

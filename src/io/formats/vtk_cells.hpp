@@ -1,6 +1,7 @@
 // VTK's cell types and number types, shared by the legacy and the XML reader.
 #pragma once
 
+#include "io/formats/number_type.hpp"
 #include "io/formats/readers.hpp"
 
 #include <algorithm>
@@ -49,15 +50,7 @@ void take_vtk_cells(const std::vector<std::uint64_t>& ends, const std::vector<st
     }
 }
 
-// VTK's number types, under the names of both kinds of files.
-enum class VtkNumber : std::uint8_t { none, i8, u8, i16, u16, i32, u32, i64, u64, f32, f64 };
-
-VtkNumber vtk_number(std::string_view name);
-std::size_t size_of(VtkNumber number);
-
-// Appends stored numbers to `out`, of doubles or of std::uint64_t, which holds integers as their bit pattern.
-template <class Out>
-void append_vtk_numbers(VtkNumber type, const char* bytes, std::uint64_t count, bool swap,
-                        std::vector<Out>& out);
+// The number type of that name in either kind of file.
+std::optional<NumberType> vtk_number(std::string_view name);
 
 } // namespace vox::io

@@ -13,7 +13,7 @@ namespace vox::io {
 namespace {
 
 struct Array {
-    VtkNumber type = VtkNumber::none;
+    NumberType type = NumberType::int8;
     std::string bytes; // of binary and appended arrays
     bool text = false; // an ASCII array, with its numbers in `where.child_value()`
     pugi::xml_node where;
@@ -24,7 +24,6 @@ public:
     explicit VtuReader(const File& file) : file_(file) {}
 
     MeshData read() {
-        data_.format = VOX_IO_FORMAT_VTU;
         parse();
         const pugi::xml_node root = document_.child("VTKFile");
         if (!root) fail({}, "expected an element VTKFile, found none");
@@ -58,9 +57,7 @@ public:
             read_piece(piece, file_.progress.part(done / count, (done + 1) / count));
             ++done;
         }
-        skipped_.report(data_);
-        require_tets(data_, file_.name);
-        return std::move(data_);
+        return finished(std::move(data_), skipped_, file_.name);
     }
 
 private:
@@ -70,7 +67,7 @@ private:
         if (where && where.offset_debug() >= 0)
             place += format(", byte %lld (%s %s)", lld(where.offset_debug()), where.name(),
                             printable(where.attribute("Name").value()).c_str());
-        throw Error(result, format("%s: %s", place.c_str(), text.c_str()));
+        throw_error(result, "%s: %s", place.c_str(), text.c_str());
     }
 
     // Appended data may be raw bytes, which are not XML, so it is cut out before the rest is parsed.
@@ -102,10 +99,11 @@ private:
         Array out;
         out.where = array;
         const std::string_view name = array.attribute("type").value();
-        out.type = vtk_number(name);
-        if (out.type == VtkNumber::none)
+        const std::optional<NumberType> type = vtk_number(name);
+        if (!type)
             fail(array, format("expected a number type (Float64, Int64 ...), found \"%s\"",
                                printable(name).c_str()));
+        out.type = *type;
         const std::string_view kind = array.attribute("format").as_string("ascii");
         const std::size_t size = size_of(out.type);
         if (kind == "ascii") {
@@ -210,10 +208,9 @@ private:
         progress.report(0);
         out.reserve(out.size() + values);
         if (!array.text) {
-            if (!std::is_floating_point_v<Out> &&
-                (array.type == VtkNumber::f32 || array.type == VtkNumber::f64))
+            if (!std::is_floating_point_v<Out> && !is_integer(array.type))
                 fail(array.where, "expected an integer type, found a floating-point type");
-            return append_vtk_numbers(array.type, array.bytes.data(), values, swap_, out);
+            return append_numbers(array.type, array.bytes.data(), values, swap_, out);
         }
         const File text{file_.name, array.where.child_value(), progress};
         Scanner in(text);

@@ -1,8 +1,8 @@
 // Writes Gmsh .msh 2.2 and 4.1 (Gmsh reference manual, "File formats"). All triangles belong to entity 1 of
 // dimension 2, all tets to entity 1 of dimension 3.
-#include "base/error.hpp"
 #include "base/llu.hpp"
 #include "io/formats/writers.hpp"
+#include "io/throw_error.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -19,7 +19,8 @@ struct Kind {
 // Writes the sections of a file. Numbers are bytes, or text in rows with a blank between two numbers.
 class MshWriter {
 public:
-    MshWriter(const MeshArrays& mesh, bool binary, Output& out) : mesh_(mesh), binary_(binary), out_(out) {}
+    MshWriter(const vox_io_mesh_view& mesh, bool binary, Output& out)
+        : mesh_(mesh), binary_(binary), out_(out) {}
 
     void write(vox_io_write_format version, const WrittenData& values) {
         const bool version_41 = version == VOX_IO_WRITE_MSH_41;
@@ -61,10 +62,9 @@ private:
 
     void write_lists() {
         if (elements_ > std::numeric_limits<std::int32_t>::max())
-            throw Error(VOX_ERROR_LIMIT,
-                        format("%llu elements are more than .msh 2.2 can number", llu(elements_)));
+            throw_error(VOX_ERROR_LIMIT, "%llu elements are more than .msh 2.2 can number", llu(elements_));
         out_ << "$Nodes\n" << vertices_ << '\n';
-        const double* p = mesh_.positions.data();
+        const double* p = mesh_.positions;
         for (std::uint32_t v = 0; v < vertices_; ++v, p += 3) row(v + 1, p[0], p[1], p[2]);
         end_section("$EndNodes\n");
 
@@ -101,7 +101,7 @@ private:
         row(one, vertices_, one, vertices_);
         row(std::uint32_t{volume ? 3u : 2u}, entity, parametric, vertices_);
         for (std::uint64_t v = 0; v < vertices_; ++v) row(v + 1);
-        const double* p = mesh_.positions.data();
+        const double* p = mesh_.positions;
         for (std::uint64_t v = 0; v < vertices_; ++v, p += 3) row(p[0], p[1], p[2]);
         end_section("$EndNodes\n");
 
@@ -126,7 +126,7 @@ private:
     void write_entities(bool surface, bool volume) {
         constexpr std::uint64_t none = 0;
         double box[6] = {};
-        for (std::size_t i = 0; i < mesh_.positions.size(); ++i) {
+        for (std::size_t i = 0; i < 3 * vertices_; ++i) {
             const std::size_t k = i % 3;
             box[k] = i < 3 ? mesh_.positions[i] : std::min(box[k], mesh_.positions[i]);
             box[3 + k] = i < 3 ? mesh_.positions[i] : std::max(box[3 + k], mesh_.positions[i]);
@@ -154,19 +154,20 @@ private:
         end_section("$End" + section + "\n");
     }
 
-    const MeshArrays& mesh_;
+    const vox_io_mesh_view& mesh_;
     const bool binary_;
     Output& out_;
     bool row_is_empty_ = true;
-    const std::uint64_t vertices_ = mesh_.positions.size() / 3;
-    const Kind kinds_[2] = {{mesh_.triangles, 3, 2, 2}, {mesh_.tets, 4, 4, 3}};
+    const std::uint64_t vertices_ = mesh_.vertex_count;
+    const Kind kinds_[2] = {{{mesh_.triangles, 3 * mesh_.triangle_count}, 3, 2, 2},
+                            {{mesh_.tets, 4 * mesh_.tet_count}, 4, 4, 3}};
     const std::uint64_t elements_ = kinds_[0].count() + kinds_[1].count();
 };
 
 } // namespace
 
-void write_msh(const MeshArrays& mesh, vox_io_write_format version, const WrittenData& values, bool binary,
-               Output& out) {
+void write_msh(const vox_io_mesh_view& mesh, vox_io_write_format version, const WrittenData& values,
+               bool binary, Output& out) {
     MshWriter(mesh, binary, out).write(version, values);
 }
 

@@ -70,9 +70,8 @@ private:
 
 } // namespace
 
-void write_vtu(const MeshArrays& mesh, const WrittenData& values, bool binary, Output& out) {
-    const std::uint64_t vertices = mesh.positions.size() / 3;
-    const std::uint64_t triangles = mesh.triangles.size() / 3, tets = mesh.tets.size() / 4;
+void write_vtu(const vox_io_mesh_view& mesh, const WrittenData& values, bool binary, Output& out) {
+    const std::uint64_t vertices = mesh.vertex_count, triangles = mesh.triangle_count, tets = mesh.tet_count;
     out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\""
         << (std::endian::native == std::endian::big ? "BigEndian" : "LittleEndian")
         << "\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" << vertices
@@ -94,12 +93,12 @@ void write_vtu(const MeshArrays& mesh, const WrittenData& values, bool binary, O
     declare(values.cells, triangles + tets);
     out << "</CellData>\n<Points>\n";
     arrays.declare<double>("Float64", "Points", 3, 3 * vertices, [&](const auto& put) {
-        for (const double x : mesh.positions) put(x);
+        for (std::uint64_t i = 0; i < 3 * vertices; ++i) put(mesh.positions[i]);
     });
     out << "</Points>\n<Cells>\n";
     arrays.declare<std::int64_t>("Int64", "connectivity", 1, 3 * triangles + 4 * tets, [&](const auto& put) {
-        for (const std::uint32_t v : mesh.triangles) put(v);
-        for (const std::uint32_t v : mesh.tets) put(v);
+        for (std::uint64_t i = 0; i < 3 * triangles; ++i) put(mesh.triangles[i]);
+        for (std::uint64_t i = 0; i < 4 * tets; ++i) put(mesh.tets[i]);
     });
     arrays.declare<std::int64_t>("Int64", "offsets", 1, triangles + tets, [=](const auto& put) {
         for (std::uint64_t t = 1; t <= triangles; ++t) put(3 * t);

@@ -74,8 +74,8 @@ struct WrittenData {
 };
 
 // `version` is VOX_IO_WRITE_MSH_22 or VOX_IO_WRITE_MSH_41.
-void write_msh(const MeshArrays& mesh, vox_io_write_format version, const WrittenData& values, bool binary,
-               Output& out);
-void write_vtu(const MeshArrays& mesh, const WrittenData& values, bool binary, Output& out);
+void write_msh(const vox_io_mesh_view& mesh, vox_io_write_format version, const WrittenData& values,
+               bool binary, Output& out);
+void write_vtu(const vox_io_mesh_view& mesh, const WrittenData& values, bool binary, Output& out);
 
 } // namespace vox::io

@@ -16,8 +16,8 @@ double norm(double x, double y, double z = 0) { return std::sqrt(x * x + y * y +
 
 // Fills the region where `depth` is positive, which must be within +-half of the origin.
 template <class Depth>
-MeshData make(const Point& half, double cell, Depth&& depth) {
-    const Frame frame = make_frame({-half[0], -half[1], -half[2]}, half, cell);
+MeshData make(const Eigen::Vector3d& half, double cell, Depth&& depth) {
+    const Frame frame = make_frame({-half, half}, cell);
     std::vector<Run> runs;
     for (std::int32_t z = 0; z <= 2 * frame.cells[2]; ++z)
         for (std::int32_t y = z & 1; y <= 2 * frame.cells[1]; y += 2)

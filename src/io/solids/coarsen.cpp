@@ -45,15 +45,12 @@ Octree::Octree(const Frame& frame, const NodeSet& inside, const std::function<bo
         else
             runs.push_back({2 * cell.y, 2 * cell.z, cell.x, cell.x});
     };
-    inside.for_each_run([&](std::uint32_t, const Run& run) {
-        if (run.y % 2 == 0) return;
-        for (std::int32_t i = run.first; i <= run.last; ++i) {
-            const Node middle = {2 * i + 1, run.y, run.z};
-            bool all = is_inner(middle);
-            for (unsigned k = long_neighbours; k < neighbour_steps.size() && all; ++k)
-                all = is_inner(middle + neighbour_steps[k]);
-            if (all) append({i, run.y >> 1, run.z >> 1});
-        }
+    inside.for_each_node([&](std::uint32_t, const Node& node) {
+        if (node.y % 2 == 0) return;
+        bool all = is_inner(node);
+        for (unsigned k = long_neighbours; k < std::size(neighbour_steps) && all; ++k)
+            all = is_inner(node + neighbour_steps[k]);
+        if (all) append({node.x >> 1, node.y >> 1, node.z >> 1});
     });
     merged_.emplace_back(frame, std::exchange(runs, {}));
     Frame coarse = frame;
@@ -130,11 +127,9 @@ void Octree::for_each_tet(const std::function<void(const std::array<Node, 4>&)>&
             }
     };
     for (std::size_t level = 0; level < merged_.size(); ++level)
-        merged_[level].for_each_run([&](std::uint32_t, const Run& run) {
-            for (std::int32_t i = run.first; i <= run.last; ++i) {
-                const Node cell = {i, run.y >> 1, run.z >> 1};
-                if (is_leaf(level, cell)) leaf_faces(level, cell);
-            }
+        merged_[level].for_each_node([&](std::uint32_t, const Node& node) {
+            const Node cell = {node.x >> 1, node.y >> 1, node.z >> 1};
+            if (is_leaf(level, cell)) leaf_faces(level, cell);
         });
 }
 

@@ -2,9 +2,10 @@
 // meshes", CGI 2004. Triangle against cube: Akenine-Möller, "Fast 3D triangle-box overlap testing", 2001.
 #include "io/solids/cubes.hpp"
 
-#include "base/error.hpp"
 #include "base/llu.hpp"
+#include "io/solids/bodies.hpp"
 #include "io/solids/five_tets.hpp"
+#include "io/throw_error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,88 +13,68 @@
 namespace vox::io {
 namespace {
 
-using Vector = std::array<double, 3>;
+using Eigen::Matrix3d, Eigen::Vector3d;
 
-Vector cross(const Vector& a, const Vector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-// Whether the triangle intersects the unit cube at `cube`, enlarged a little so that no cube is missed
-// because of rounding.
-bool touches(const std::array<Vector, 3>& triangle, const Vector& cube) {
+// Whether the triangle, whose corners are columns, intersects the unit cube at `cube`, enlarged a little so
+// that no cube is missed because of rounding.
+bool touches(const Matrix3d& triangle, const Vector3d& cube) {
     constexpr double half = 0.5 + 1e-7;
-    std::array<Vector, 3> p = triangle;
-    for (Vector& point : p)
-        for (std::size_t k = 0; k < 3; ++k) point[k] -= cube[k] + 0.5;
-    const auto apart = [&](const Vector& axis) {
-        std::array<double, 3> at{};
-        for (std::size_t i = 0; i < 3; ++i) at[i] = axis[0] * p[i][0] + axis[1] * p[i][1] + axis[2] * p[i][2];
-        const double reach = half * (std::abs(axis[0]) + std::abs(axis[1]) + std::abs(axis[2]));
-        return std::min({at[0], at[1], at[2]}) > reach || std::max({at[0], at[1], at[2]}) < -reach;
+    const Matrix3d p = triangle.colwise() - (cube + Vector3d::Constant(0.5));
+    const auto apart = [&](const Vector3d& axis) {
+        const Vector3d at = p.transpose() * axis;
+        const double reach = half * axis.lpNorm<1>();
+        return at.minCoeff() > reach || at.maxCoeff() < -reach;
     };
-    std::array<Vector, 3> edges{};
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t k = 0; k < 3; ++k) edges[i][k] = p[(i + 1) % 3][k] - p[i][k];
-    for (std::size_t k = 0; k < 3; ++k) {
-        Vector axis = {0, 0, 0};
-        axis[k] = 1;
+    Matrix3d edges;
+    for (int i = 0; i < 3; ++i) edges.col(i) = p.col((i + 1) % 3) - p.col(i);
+    for (int k = 0; k < 3; ++k) {
+        const Vector3d axis = Vector3d::Unit(k);
         if (apart(axis)) return false;
-        for (const Vector& edge : edges)
-            if (apart(cross(axis, edge))) return false;
+        for (int i = 0; i < 3; ++i)
+            if (apart(axis.cross(edges.col(i)))) return false;
     }
-    return !apart(cross(edges[0], edges[1]));
+    return !apart(edges.col(0).cross(edges.col(1)));
 }
 
 // Calls visit(i, j, k) for the unit cubes that the triangle touches. It searches columns along the axis
 // closest to the triangle's normal, so that the work is proportional to the area.
 template <class Visit>
-void for_each_touched(const std::array<Vector, 3>& triangle, Visit&& visit) {
-    Vector e1{}, e2{};
-    for (std::size_t k = 0; k < 3; ++k) {
-        e1[k] = triangle[1][k] - triangle[0][k];
-        e2[k] = triangle[2][k] - triangle[0][k];
-    }
-    const Vector normal = cross(e1, e2);
-    std::size_t w = 0; // the column's axis
-    for (std::size_t k = 1; k < 3; ++k)
-        if (std::abs(normal[k]) > std::abs(normal[w])) w = k;
-    const std::size_t u = (w + 1) % 3, v = (w + 2) % 3;
-    std::array<std::int32_t, 3> low{}, high{};
-    for (std::size_t k = 0; k < 3; ++k) {
-        const auto [least, most] = std::minmax({triangle[0][k], triangle[1][k], triangle[2][k]});
-        low[k] = static_cast<std::int32_t>(std::floor(least - 1e-6));
-        high[k] = static_cast<std::int32_t>(std::floor(most + 1e-6));
-    }
+void for_each_touched(const Matrix3d& triangle, Visit&& visit) {
+    const Vector3d first = triangle.col(0);
+    const Vector3d normal = (triangle.col(1) - first).cross(triangle.col(2) - first);
+    int w = 0; // the column's axis
+    normal.cwiseAbs().maxCoeff(&w);
+    const int u = (w + 1) % 3, v = (w + 2) % 3;
+    const Eigen::Vector3i low = (triangle.rowwise().minCoeff().array() - 1e-6).floor().cast<int>(),
+                          high = (triangle.rowwise().maxCoeff().array() + 1e-6).floor().cast<int>();
     for (std::int32_t i = low[u]; i <= high[u]; ++i)
         for (std::int32_t j = low[v]; j <= high[v]; ++j) {
             // The range where the plane passes through the column, or all of the triangle's extent if it has
             // no normal.
             double least = low[w], most = high[w];
             if (normal[w] != 0) {
-                const double at = triangle[0][w] - ((i + 0.5 - triangle[0][u]) * normal[u] +
-                                                    (j + 0.5 - triangle[0][v]) * normal[v]) /
-                                                       normal[w];
+                const double at =
+                    first[w] -
+                    ((i + 0.5 - first[u]) * normal[u] + (j + 0.5 - first[v]) * normal[v]) / normal[w];
                 // The slope is at most 1 in u and in v.
                 least = std::max(least, std::floor(at - 1.01));
                 most = std::min(most, std::floor(at + 1.01));
             }
             for (auto k = static_cast<std::int32_t>(least); k <= static_cast<std::int32_t>(most); ++k) {
-                Vector cube{};
+                Eigen::Vector3i cube;
                 cube[u] = i;
                 cube[v] = j;
                 cube[w] = k;
-                if (touches(triangle, cube))
-                    visit(static_cast<std::int32_t>(cube[0]), static_cast<std::int32_t>(cube[1]),
-                          static_cast<std::int32_t>(cube[2]));
+                if (touches(triangle, cube.cast<double>())) visit(cube[0], cube[1], cube[2]);
             }
         }
 }
 
 void check_count(std::uint64_t cubes, std::uint64_t max_tets) {
     if (5 * cubes > max_tets)
-        throw Error(VOX_ERROR_LIMIT,
-                    format("%llu cubes make %llu tets, at most %llu are allowed: choose larger cells",
-                           llu(cubes), llu(5 * cubes), llu(max_tets)));
+        throw_error(VOX_ERROR_LIMIT,
+                    "%llu cubes make %llu tets, at most %llu are allowed: choose larger cells", llu(cubes),
+                    llu(5 * cubes), llu(max_tets));
 }
 
 } // namespace
@@ -106,13 +87,13 @@ MeshData make_cubes(const vox_io_mesh_view& surface, const Frame& frame, const N
         if (run.y & 1) runs.push_back({run.y - 1, run.z - 1, run.first, run.last});
     });
     const double cell = 2 * frame.half_cell;
+    const Vector3d origin(frame.origin.data());
     for (std::size_t t = 0; t < surface.triangle_count; ++t) {
-        std::array<Vector, 3> triangle{};
-        for (std::size_t i = 0; i < 3; ++i)
-            for (std::size_t k = 0; k < 3; ++k)
-                triangle[i][k] =
-                    (surface.positions[3 * std::size_t{surface.triangles[3 * t + i]} + k] - frame.origin[k]) /
-                    cell;
+        Matrix3d triangle;
+        for (int i = 0; i < 3; ++i) {
+            const std::size_t v = surface.triangles[3 * t + static_cast<std::size_t>(i)];
+            triangle.col(i) = (Vector3d(surface.positions + 3 * v) - origin) / cell;
+        }
         for_each_touched(triangle, [&](std::int32_t i, std::int32_t j, std::int32_t k) {
             runs.push_back({2 * j, 2 * k, i, i});
         });
@@ -129,22 +110,17 @@ MeshData make_cubes(const vox_io_mesh_view& surface, const Frame& frame, const N
     const NodeSet corners(frame, std::move(runs));
     MeshData mesh;
     mesh.positions.reserve(3 * std::size_t{corners.size()});
-    corners.for_each_run([&](std::uint32_t, const Run& run) {
-        for (std::int32_t i = run.first; i <= run.last; ++i) {
-            const Vector p = frame.position(2 * i, run.y, run.z);
-            mesh.positions.insert(mesh.positions.end(), p.begin(), p.end());
-        }
+    corners.for_each_node([&](std::uint32_t, const Node& node) {
+        const std::array<double, 3> p = frame.position(node.x, node.y, node.z);
+        mesh.positions.insert(mesh.positions.end(), p.begin(), p.end());
     });
     mesh.tets.reserve(20 * std::size_t{cubes.size()});
-    cubes.for_each_run([&](std::uint32_t, const Run& run) {
-        for (std::int32_t i = run.first; i <= run.last; ++i) {
-            std::array<std::uint32_t, 8> number{};
-            for (std::int32_t c = 0; c < 8; ++c)
-                number[static_cast<std::size_t>(c)] =
-                    corners.find({2 * (i + (c & 1)), run.y + (c & 2), run.z + (c & 4) / 2});
-            for (const auto& tet : five_tets(i + run.y / 2 + run.z / 2))
-                for (const std::uint8_t corner : tet) mesh.tets.push_back(number[corner]);
-        }
+    cubes.for_each_node([&](std::uint32_t, const Node& node) {
+        std::array<std::uint32_t, 8> number{};
+        for (std::int32_t c = 0; c < 8; ++c)
+            number[static_cast<std::size_t>(c)] = corners.find(node + Node{2 * (c & 1), c & 2, (c & 4) / 2});
+        for (const auto& tet : five_tets(node.x / 2 + node.y / 2 + node.z / 2))
+            for (const std::uint8_t corner : tet) mesh.tets.push_back(number[corner]);
     });
     return mesh;
 }

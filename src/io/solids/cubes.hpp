@@ -11,7 +11,4 @@ namespace vox::io {
 MeshData make_cubes(const vox_io_mesh_view& surface, const Frame& frame, const NodeSet& inside,
                     std::uint64_t max_tets);
 
-// A box of cells[0] x cells[1] x cells[2] cuboids around the origin.
-MeshData make_box(const std::array<double, 3>& size, const std::array<std::int32_t, 3>& cells);
-
 } // namespace vox::io

@@ -2,8 +2,6 @@
 // detection", 2005, Sect. 5.1.5.
 #include "io/solids/distance.hpp"
 
-#include "base/eigen.hpp"
-
 #include <algorithm>
 #include <limits>
 
@@ -36,45 +34,31 @@ double squared_distance_to_triangle(const Vector3d& p, const Vector3d& a, const 
     return (ap - ab * (vb / sum) - ac * (vc / sum)).squaredNorm();
 }
 
-double squared_distance_to_box(const std::array<double, 3>& p, const std::array<double, 3>& min,
-                               const std::array<double, 3>& max) {
-    double sum = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const double away = std::max({min[k] - p[k], p[k] - max[k], 0.0});
-        sum += away * away;
-    }
-    return sum;
-}
-
 } // namespace
 
 TriangleTree::TriangleTree(const double* positions, std::vector<std::uint32_t> triangles)
-    : positions_(positions) {
-    triangles_.resize(triangles.size() / 3);
-    for (std::size_t t = 0; t < triangles_.size(); ++t)
-        triangles_[t] = {triangles[3 * t], triangles[3 * t + 1], triangles[3 * t + 2]};
+    : positions_(positions), triangles_(triangles.size() / 3) {
+    for (std::size_t i = 0; i < 3 * triangles_.size(); ++i) triangles_[i / 3][i % 3] = triangles[i];
     nodes_.reserve(triangles_.size());
     build(0, static_cast<std::uint32_t>(triangles_.size()));
 }
 
+Vector3d TriangleTree::corner(std::uint32_t vertex) const {
+    return Vector3d(positions_ + 3 * std::size_t{vertex});
+}
+
 void TriangleTree::build(std::uint32_t first, std::uint32_t count) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    Node node = {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}, first, count};
+    Eigen::AlignedBox3d box;
     for (std::uint32_t t = first; t < first + count; ++t)
-        for (const std::uint32_t v : triangles_[t])
-            for (std::size_t k = 0; k < 3; ++k) {
-                node.min[k] = std::min(node.min[k], positions_[3 * std::size_t{v} + k]);
-                node.max[k] = std::max(node.max[k], positions_[3 * std::size_t{v} + k]);
-            }
+        for (const std::uint32_t v : triangles_[t]) box.extend(corner(v));
     const std::size_t self = nodes_.size();
-    nodes_.push_back(node);
+    nodes_.push_back({box, first, count});
     if (count <= 4) return;
-    std::size_t axis = 0;
-    for (std::size_t k = 1; k < 3; ++k)
-        if (node.max[k] - node.min[k] > node.max[axis] - node.min[axis]) axis = k;
+    Eigen::Index axis = 0;
+    box.sizes().maxCoeff(&axis);
     const auto middle = [&](const std::array<std::uint32_t, 3>& t) {
         double sum = 0;
-        for (const std::uint32_t v : t) sum += positions_[3 * std::size_t{v} + axis];
+        for (const std::uint32_t v : t) sum += corner(v)[axis];
         return sum;
     };
     const auto begin = triangles_.begin() + first;
@@ -86,9 +70,7 @@ void TriangleTree::build(std::uint32_t first, std::uint32_t count) {
     build(first + count / 2, count - count / 2);
 }
 
-double TriangleTree::squared_distance(const std::array<double, 3>& point, double enough) const {
-    const Vector3d p(point[0], point[1], point[2]);
-    const auto corner = [&](std::uint32_t v) { return Vector3d(positions_ + 3 * std::size_t{v}); };
+double TriangleTree::squared_distance(const Vector3d& p, double enough) const {
     double best = std::numeric_limits<double>::infinity();
     // Median splits of fewer than 2^32 triangles are at most 32 levels deep, and one node waits on each
     // level.
@@ -98,7 +80,7 @@ double TriangleTree::squared_distance(const std::array<double, 3>& point, double
     while (count > 0 && best > enough) {
         const std::uint32_t n = waiting[--count];
         const Node& node = nodes_[n];
-        if (squared_distance_to_box(point, node.min, node.max) >= best) continue;
+        if (node.box.squaredExteriorDistance(p) >= best) continue;
         if (node.count > 0) {
             for (std::uint32_t t = node.first; t < node.first + node.count; ++t)
                 best = std::min(best, squared_distance_to_triangle(p, corner(triangles_[t][0]),
@@ -107,8 +89,7 @@ double TriangleTree::squared_distance(const std::array<double, 3>& point, double
             continue;
         }
         std::uint32_t near = n + 1, far = node.first;
-        if (squared_distance_to_box(point, nodes_[far].min, nodes_[far].max) <
-            squared_distance_to_box(point, nodes_[near].min, nodes_[near].max))
+        if (nodes_[far].box.squaredExteriorDistance(p) < nodes_[near].box.squaredExteriorDistance(p))
             std::swap(near, far);
         waiting[count++] = far;
         waiting[count++] = near;

@@ -1,6 +1,8 @@
 // Distances from points to a set of triangles.
 #pragma once
 
+#include "base/eigen.hpp"
+
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -15,14 +17,15 @@ public:
 
     // Squared distance to the nearest triangle. If that is at most `enough`, any number up to `enough` may be
     // returned.
-    double squared_distance(const std::array<double, 3>& point, double enough) const;
+    double squared_distance(const Eigen::Vector3d& p, double enough) const;
 
 private:
     struct Node {
-        std::array<double, 3> min, max;
+        Eigen::AlignedBox3d box;
         std::uint32_t first, count; // triangles; with count 0, the children are this node + 1 and `first`
     };
 
+    Eigen::Vector3d corner(std::uint32_t vertex) const;
     void build(std::uint32_t first, std::uint32_t count);
 
     const double* positions_;

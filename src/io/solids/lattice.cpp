@@ -1,24 +1,23 @@
 #include "io/solids/lattice.hpp"
 
-#include "base/error.hpp"
+#include "io/throw_error.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace vox::io {
 
-Frame make_frame(const std::array<double, 3>& box_min, const std::array<double, 3>& box_max, double cell) {
+Frame make_frame(const Eigen::AlignedBox3d& box, double cell) {
     constexpr double margin = 4; // both sides together
     Frame frame;
     frame.half_cell = cell / 2;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const double cells = std::ceil((box_max[k] - box_min[k]) / cell);
+    for (unsigned k = 0; k < 3; ++k) {
+        const double cells = std::ceil(box.sizes()[k] / cell);
         if (!(cells <= max_cells))
-            throw Error(VOX_ERROR_LIMIT,
-                        format("a cell of %g makes %.0f cells along %c, at most %d are possible", cell, cells,
-                               static_cast<int>('x' + k), max_cells));
+            throw_error(VOX_ERROR_LIMIT, "a cell of %g makes %.0f cells along %c, at most %d are possible",
+                        cell, cells, static_cast<int>('x' + k), max_cells);
         frame.cells[k] = static_cast<std::int32_t>(cells + margin);
-        frame.origin[k] = (box_min[k] + box_max[k]) / 2 - (cells + margin) * frame.half_cell;
+        frame.origin[k] = (box.min()[k] + box.max()[k]) / 2 - (cells + margin) * frame.half_cell;
     }
     return frame;
 }
@@ -44,7 +43,7 @@ NodeSet::NodeSet(const Frame& frame, std::vector<Run> runs)
         spans_.push_back({run.first, run.last, static_cast<std::uint32_t>(size)});
         size += static_cast<std::uint64_t>(run.last - run.first + 1);
         if (size >= none)
-            throw Error(VOX_ERROR_LIMIT,
+            throw_error(VOX_ERROR_LIMIT,
                         "the lattice would hold more than 4294967294 points: choose larger cells");
         ++row_start_[row_of(run.y & 1, run.y >> 1, run.z >> 1) + 1];
     }

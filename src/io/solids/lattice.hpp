@@ -5,6 +5,8 @@
 // distance 2 (long edges) and eight along the cubes' diagonals at distance sqrt(3) (short edges).
 #pragma once
 
+#include "base/eigen.hpp"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -18,20 +20,9 @@ struct Node {
 
 // Neighbour k is at neighbour_steps[k], and neighbour k ^ 1 opposite to it. k / 2 is the direction, of which
 // 0, 1 and 2 are the axes.
-inline constexpr std::array<Node, 14> neighbour_steps = {{{2, 0, 0},
-                                                          {-2, 0, 0},
-                                                          {0, 2, 0},
-                                                          {0, -2, 0},
-                                                          {0, 0, 2},
-                                                          {0, 0, -2},
-                                                          {1, 1, 1},
-                                                          {-1, -1, -1},
-                                                          {1, 1, -1},
-                                                          {-1, -1, 1},
-                                                          {1, -1, 1},
-                                                          {-1, 1, -1},
-                                                          {1, -1, -1},
-                                                          {-1, 1, 1}}};
+inline constexpr Node neighbour_steps[] = {{2, 0, 0},  {-2, 0, 0},  {0, 2, 0},    {0, -2, 0}, {0, 0, 2},
+                                           {0, 0, -2}, {1, 1, 1},   {-1, -1, -1}, {1, 1, -1}, {-1, -1, 1},
+                                           {1, -1, 1}, {-1, 1, -1}, {1, -1, -1},  {-1, 1, 1}};
 inline constexpr unsigned long_neighbours = 6; // the first six, at the end of long edges
 
 constexpr Node operator+(const Node& a, const Node& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
@@ -52,7 +43,7 @@ inline constexpr std::int32_t max_cells = 4096;
 
 // A lattice of cells with edge `cell`, centred on the box, with a margin of two cells on each side. Throws
 // LIMIT if the box is longer than max_cells cells along an axis.
-Frame make_frame(const std::array<double, 3>& box_min, const std::array<double, 3>& box_max, double cell);
+Frame make_frame(const Eigen::AlignedBox3d& box, double cell);
 
 // The nodes (2 * first + parity, y, z) to (2 * last + parity, y, z), where parity is that of y and of z.
 struct Run {
@@ -99,6 +90,15 @@ public:
                 const auto z = static_cast<std::int32_t>(in_parity / static_cast<std::size_t>(rows_y_));
                 visit(spans_[r].number, Run{2 * y + parity, 2 * z + parity, spans_[r].first, spans_[r].last});
             }
+    }
+
+    // Calls visit(number, node) for every node, in the order of the numbers.
+    template <class Visit>
+    void for_each_node(Visit&& visit) const {
+        for_each_run([&](std::uint32_t number, const Run& run) {
+            for (std::int32_t i = run.first; i <= run.last; ++i, ++number)
+                visit(number, Node{2 * i + (run.y & 1), run.y, run.z});
+        });
     }
 
 private:

@@ -1,4 +1,4 @@
-#include "io/solids/quality.hpp"
+#include "io/solids/bodies.hpp"
 
 #include "base/eigen.hpp"
 #include "io/buckets.hpp"
@@ -78,7 +78,7 @@ double largest_distance(const vox_io_mesh_view& mesh, const std::uint32_t* trian
         for (int i = 0; i <= parts; ++i)
             for (int j = 0; i + j <= parts; ++j) {
                 const Vector3d p = a + (b - a) * (double(i) / parts) + (c - a) * (double(j) / parts);
-                largest = std::max(largest, tree.squared_distance({p[0], p[1], p[2]}, largest));
+                largest = std::max(largest, tree.squared_distance(p, largest));
             }
     }
     return std::sqrt(largest);

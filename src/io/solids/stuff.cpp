@@ -3,10 +3,10 @@
 // moved onto it; and every lattice tetrahedron is replaced by the stencil of its part inside.
 #include "io/solids/stuff.hpp"
 
-#include "base/error.hpp"
 #include "base/llu.hpp"
 #include "io/solids/coarsen.hpp"
 #include "io/solids/stencil.hpp"
+#include "io/throw_error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -63,14 +63,6 @@ private:
         std::uint32_t node;
     };
 
-    template <class Visit>
-    void for_each_node(const NodeSet& nodes, Visit&& visit) const {
-        nodes.for_each_run([&](std::uint32_t number, const Run& run) {
-            for (std::int32_t i = run.first; i <= run.last; ++i, ++number)
-                visit(number, Node{2 * i + (run.y & 1), run.y, run.z});
-        });
-    }
-
     void find_sides() {
         body_.inside.for_each_run([&](std::uint32_t, const Run& run) {
             const std::uint32_t first = nodes_.find({2 * run.first + (run.y & 1), run.y, run.z});
@@ -92,10 +84,10 @@ private:
     }
 
     void find_cuts() {
-        for_each_node(body_.inside, [&](std::uint32_t number, const Node& node) {
+        body_.inside.for_each_node([&](std::uint32_t number, const Node& node) {
             if (number % 65536 == 0) progress_.report(0.4 * number / body_.inside.size());
             std::uint32_t self = none;
-            for (std::uint32_t k = 0; k < neighbour_steps.size(); ++k) {
+            for (std::uint32_t k = 0; k < std::size(neighbour_steps); ++k) {
                 const std::uint32_t other = nodes_.find(node + neighbour_steps[k]);
                 if (sides_[other] == Side::inside) continue;
                 if (self == none) self = nodes_.find(node);
@@ -117,7 +109,7 @@ private:
             Fringe& fringe = fringes_[f];
             const bool inside = sides_[fringe.node] == Side::inside;
             double nearest = 2;
-            for (std::uint32_t k = 0; k < neighbour_steps.size(); ++k) {
+            for (std::uint32_t k = 0; k < std::size(neighbour_steps); ++k) {
                 if (fringe.cuts[k] == none) continue;
                 const double fraction = cuts_[fringe.cuts[k]].fraction;
                 const double away = inside ? fraction : 1 - fraction;
@@ -130,7 +122,7 @@ private:
             }
             if (fringe.moved_to == none) continue;
             sides_[fringe.node] = Side::on;
-            for (std::uint32_t k = 0; k < neighbour_steps.size(); ++k) {
+            for (std::uint32_t k = 0; k < std::size(neighbour_steps); ++k) {
                 if (fringe.cuts[k] == none) continue;
                 const Cut& cut = cuts_[fringe.cuts[k]];
                 const Node other = inside ? cut.inside + neighbour_steps[cut.neighbour] : cut.inside;
@@ -143,7 +135,7 @@ private:
     // Adds the tetrahedra around the long edges between cell centres: four around each, one for each edge of
     // the face between the two cells.
     void fill(const Octree& octree) {
-        for_each_node(nodes_, [&](std::uint32_t number, const Node& low) {
+        nodes_.for_each_node([&](std::uint32_t number, const Node& low) {
             if (number % 65536 == 0) progress_.report(0.4 + 0.6 * number / nodes_.size());
             if ((low.y & 1) == 0) return;
             const bool low_merged = octree.is_merged(low);
@@ -222,8 +214,8 @@ private:
 
     void add_tet(const std::array<std::uint32_t, 4>& tet) {
         if (mesh_.tets.size() / 4 >= max_tets_)
-            throw Error(VOX_ERROR_LIMIT, format("more than %llu tets (max_tets): choose larger cells than %g",
-                                                llu(max_tets_), 2 * body_.frame.half_cell));
+            throw_error(VOX_ERROR_LIMIT, "more than %llu tets (max_tets): choose larger cells than %g",
+                        llu(max_tets_), 2 * body_.frame.half_cell);
         mesh_.tets.insert(mesh_.tets.end(), tet.begin(), tet.end());
     }
 
@@ -280,11 +272,10 @@ void check_tet_count(const NodeSet& inside, const Frame& frame, std::uint32_t co
                      std::uint64_t max_tets) {
     // There are more uniform tets than nodes inside, and each merging turns at most eight tets into one.
     if (inside.size() >> std::min(3 * coarsen, 31u) > max_tets)
-        throw Error(
+        throw_error(
             VOX_ERROR_LIMIT,
-            format(
-                "%u lattice points inside make more than %llu tets (max_tets): choose larger cells than %g",
-                inside.size(), llu(max_tets), 2 * frame.half_cell));
+            "%u lattice points inside make more than %llu tets (max_tets): choose larger cells than %g",
+            inside.size(), llu(max_tets), 2 * frame.half_cell);
 }
 
 MeshData stuff(const Body& body, std::uint32_t coarsen, std::uint64_t max_tets, const Progress& progress) {

@@ -3,7 +3,7 @@
 // degenerate cases in geometric algorithms", ACM Trans. Graphics 9(1), 1990.
 #include "io/solids/surface.hpp"
 
-#include "base/error.hpp"
+#include "io/throw_error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -186,7 +186,7 @@ LatticeLines cast(unsigned direction, const std::vector<IntPoint>& points,
 
     LatticeLines lines;
     if (crossings.size() >= std::numeric_limits<std::uint32_t>::max())
-        throw Error(VOX_ERROR_LIMIT,
+        throw_error(VOX_ERROR_LIMIT,
                     "the surface crosses more than 4294967294 lattice lines: choose larger cells");
     if (crossings.empty()) {
         lines.row_start.assign(1, 0);
@@ -236,7 +236,6 @@ SurfaceLines::SurfaceLines(const vox_io_mesh_view& surface, const Frame& frame) 
         if (corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0])
             given.push_back(corners);
     }
-    check_.triangles = given.size();
     check_edges(given, check_);
     triangles_.resize(given.size());
     std::transform(given.begin(), given.end(), triangles_.begin(), in_order);
@@ -316,20 +315,17 @@ NodeSet SurfaceLines::inside(const Frame& frame, double& doubtful) const {
     }
     std::uint64_t nodes = 0, unsure = 0;
     std::vector<Run> chosen;
-    NodeSet(frame, std::move(runs)).for_each_run([&](std::uint32_t, const Run& run) {
-        for (std::int32_t i = run.first; i <= run.last; ++i) {
-            const Node node = {2 * i + (run.y & 1), run.y, run.z};
-            int in = 0, out = 0;
-            for (unsigned axis = 0; axis < 3; ++axis) {
-                const Line line = find(axis, node);
-                if ((line.end - line.begin) % 2 != 0) continue;
-                const double t = axis == 0 ? node.x : axis == 1 ? node.y : node.z;
-                ++((std::upper_bound(line.begin, line.end, t) - line.begin) % 2 != 0 ? in : out);
-            }
-            ++nodes;
-            unsure += in == 0 || out != 0;
-            if (in > out) chosen.push_back({run.y, run.z, i, i});
+    NodeSet(frame, std::move(runs)).for_each_node([&](std::uint32_t, const Node& node) {
+        int in = 0, out = 0;
+        for (unsigned axis = 0; axis < 3; ++axis) {
+            const Line line = find(axis, node);
+            if ((line.end - line.begin) % 2 != 0) continue;
+            const double t = axis == 0 ? node.x : axis == 1 ? node.y : node.z;
+            ++((std::upper_bound(line.begin, line.end, t) - line.begin) % 2 != 0 ? in : out);
         }
+        ++nodes;
+        unsure += in == 0 || out != 0;
+        if (in > out) chosen.push_back({node.y, node.z, node.x >> 1, node.x >> 1});
     });
     const auto share = [](std::uint64_t part, std::uint64_t all) {
         return all ? static_cast<double>(part) / static_cast<double>(all) : 0;

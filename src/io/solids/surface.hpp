@@ -14,7 +14,6 @@ namespace vox::io {
 
 // The result of checking a surface before it is intersected with lattice lines.
 struct SurfaceCheck {
-    std::uint64_t triangles = 0;  // triangles with three different vertices
     std::uint64_t edges = 0;      // unique edges
     std::uint64_t open_edges = 0; // edges of an odd number of triangles
     bool oriented = false;        // whether every edge is used equally often in both directions

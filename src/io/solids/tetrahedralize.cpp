@@ -1,11 +1,10 @@
-#include "io/solids/tetrahedralize.hpp"
+#include "io/solids/bodies.hpp"
 
-#include "base/error.hpp"
 #include "base/llu.hpp"
 #include "io/solids/cubes.hpp"
-#include "io/solids/quality.hpp"
 #include "io/solids/stuff.hpp"
 #include "io/solids/surface.hpp"
+#include "io/throw_error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,41 +17,25 @@ namespace {
 // nodes are inside for one axis and outside for another.
 constexpr double most_doubtful = 0.01;
 
-struct Box {
-    std::array<double, 3> min, max;
-};
-
-Box bounds_of_triangles(const vox_io_mesh_view& surface) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    Box box = {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
-    for (std::size_t i = 0; i < 3 * surface.triangle_count; ++i)
-        for (std::size_t k = 0; k < 3; ++k) {
-            const double x = surface.positions[3 * std::size_t{surface.triangles[i]} + k];
-            box.min[k] = std::min(box.min[k], x);
-            box.max[k] = std::max(box.max[k], x);
-        }
-    return box;
-}
-
 void refuse_open(const SurfaceLines& lines, double doubtful) {
-    throw Error(
+    throw_error(
         VOX_ERROR_INVALID_MESH,
-        format("the surface is open: %llu of its %llu edges have an odd number of triangles, and for %.1f %% "
-               "of the lattice inside and outside cannot be told apart (at most %.0f %%)",
-               llu(lines.check().open_edges), llu(lines.check().edges), 100 * doubtful, 100 * most_doubtful));
+        "the surface is open: %llu of its %llu edges have an odd number of triangles, and for %.1f %% "
+        "of the lattice inside and outside cannot be told apart (at most %.0f %%)",
+        llu(lines.check().open_edges), llu(lines.check().edges), 100 * doubtful, 100 * most_doubtful);
 }
 
 struct Attempt {
     const vox_io_mesh_view& surface;
     const vox_io_tetrahedralize_desc& desc;
-    const Box& box;
+    const Eigen::AlignedBox3d& box;
     double cell;
     std::uint32_t coarsen;
 };
 
 MeshData run(const Attempt& attempt, const Progress& progress) {
     const auto& [surface, desc, box, cell, coarsen] = attempt;
-    const Frame frame = make_frame(box.min, box.max, cell);
+    const Frame frame = make_frame(box, cell);
     SurfaceLines lines(surface, frame);
     double doubtful = 0;
     NodeSet inside = lines.inside(frame, doubtful);
@@ -85,9 +68,10 @@ MeshData run(const Attempt& attempt, const Progress& progress) {
 MeshData tetrahedralize(const vox_io_mesh_view& surface, const vox_io_tetrahedralize_desc& desc) {
     const Progress progress(desc.progress, desc.progress_user);
     progress.report(0);
-    const Box box = bounds_of_triangles(surface);
-    double longest = 0;
-    for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, box.max[k] - box.min[k]);
+    Eigen::AlignedBox3d box;
+    for (std::size_t i = 0; i < 3 * surface.triangle_count; ++i)
+        box.extend(Eigen::Vector3d(surface.positions + 3 * std::size_t{surface.triangles[i]}));
+    const double longest = box.sizes().maxCoeff();
     double cell = desc.cell > 0 ? desc.cell : longest / 50;
     if (!std::isfinite(longest) || !(cell / 2 >= std::numeric_limits<double>::min()))
         refuse(format("no cells of %g fit a surface that is %g long", cell, longest));
@@ -102,20 +86,18 @@ MeshData tetrahedralize(const vox_io_mesh_view& surface, const vox_io_tetrahedra
         if (mesh.tets.empty() && (!to_distance || last))
             refuse(format("no tet fits into the surface with a cell of %g (its longest side is %g)", cell,
                           longest));
-        const double reached = to_distance && !mesh.tets.empty()
-                                   ? measure_quality(view_of(arrays_of(mesh)), &surface).hausdorff
-                                   : 0;
+        const double reached =
+            to_distance && !mesh.tets.empty() ? measure_quality(view_of(mesh), &surface).hausdorff : 0;
         if (!mesh.tets.empty() && (!to_distance || reached <= desc.max_distance)) {
             progress.report(1);
             return mesh;
         }
         if (last)
-            throw Error(
-                VOX_ERROR_LIMIT,
-                format("cells of %g, %llu tets, come within %g of the surface; %g (max_distance) needs more "
-                       "than %llu tets (max_tets) or %d cells along an axis",
-                       cell, llu(mesh.tets.size() / 4), reached, desc.max_distance, llu(desc.max_tets),
-                       max_cells));
+            throw_error(VOX_ERROR_LIMIT,
+                        "cells of %g, %llu tets, come within %g of the surface; %g (max_distance) needs more "
+                        "than %llu tets (max_tets) or %d cells along an axis",
+                        cell, llu(mesh.tets.size() / 4), reached, desc.max_distance, llu(desc.max_tets),
+                        max_cells);
     }
 }
 
