@@ -173,8 +173,7 @@ private:
 
     void read_node(std::size_t extra) {
         begin_line();
-        numbers_.add(binary_ ? in_.binary<std::int32_t>(swap_, "a node number")
-                             : in_.integer<std::int64_t>("a node number"));
+        numbers_.add(short_number("a node number"));
         read_position(extra);
     }
 
@@ -318,22 +317,16 @@ private:
         const std::uint64_t total = total_count("number of elements", binary_ ? 8 : 4);
         std::uint64_t done = 0;
         for (std::uint64_t b = 0; b < blocks; ++b) {
-            const ElementType* type;
-            if (binary_) {
-                in_.take(8, "an entity");
-                type = &checked_type(in_.binary<std::int32_t>(swap_, "an element type"));
-            } else {
-                in_.skip_space();
-                in_.integer<std::int64_t>("an entity");
-                in_.integer<std::int64_t>("an entity");
-                type = &checked_type(in_.integer<std::int64_t>("an element type"));
-            }
+            begin_line();
+            short_number("an entity");
+            short_number("an entity");
+            const ElementType& type = checked_type(short_number("an element type"));
             const std::uint64_t count = in_block("elements in this block", binary_ ? 8 : 4);
             if (done + count > total)
                 in_.fail("expected %llu elements in all, found a block of %llu after %llu", llu(total),
                          llu(count), llu(done));
             done += count;
-            if (type->cell == Cell::tet || type->cell == Cell::high_tet) {
+            if (type.cell == Cell::tet || type.cell == Cell::high_tet) {
                 const std::size_t line = binary_ ? 20 : 9; // at least
                 const std::size_t need =
                     data_.tets.size() + 4 * std::min<std::uint64_t>(count, in_.remaining() / line);
@@ -341,14 +334,14 @@ private:
                     data_.tets.reserve(std::max(need, data_.tets.capacity() / 2 * 3));
             }
             if (binary_ && version_ == 40)
-                binary_block<std::int32_t>(*type, count, 4);
+                binary_block<std::int32_t>(type, count, 4);
             else if (binary_)
-                binary_block<std::int64_t>(*type, count, 8);
+                binary_block<std::int64_t>(type, count, 8);
             else
                 for (std::uint64_t i = 0; i < count; ++i) {
                     in_.skip_space();
                     in_.integer<std::int64_t>("an element number");
-                    text_nodes(*type);
+                    text_nodes(type);
                 }
         }
         if (done != total) wrong_total("elements", start, total, done);
@@ -364,6 +357,11 @@ private:
         return binary_ ? in_.binary<Integer>(swap_, what) : in_.integer<Integer>(what);
     }
 
+    // Of 32 bits in a binary file.
+    std::int64_t short_number(const char* what) {
+        return binary_ ? in_.binary<std::int32_t>(swap_, what) : in_.integer<std::int64_t>(what);
+    }
+
     // A section of versions 4.x begins with the number of blocks and the total number of nodes or elements.
     // Version 4.1 adds their lowest and highest number, which are not needed.
     std::uint64_t block_count() {
@@ -372,11 +370,9 @@ private:
     }
     std::uint64_t total_count(const char* what, std::size_t bytes) {
         const std::uint64_t total = read_count(what, bytes);
-        if (binary_ && version_ == 41) in_.take(16, "lowest and highest number");
-        if (!binary_ && version_ == 41) {
-            in_.integer<std::uint64_t>("the lowest number");
-            in_.integer<std::uint64_t>("the highest number");
-        }
+        if (version_ == 41)
+            for (const char* number : {"the lowest number", "the highest number"})
+                read_number<std::uint64_t>(number);
         if (!binary_) in_.line_end();
         return total;
     }

@@ -28,6 +28,18 @@ struct File {
 // Text for an error message, shortened to `longest` characters, with unprintable ones shown as "?".
 std::string printable(std::string_view text, std::size_t longest = 40);
 
+// Reads the value stored at `data`, which need not be aligned; `swap` reverses its bytes.
+template <class T>
+T load(const char* data, bool swap) noexcept {
+    char bytes[sizeof(T)];
+    std::memcpy(bytes, data, sizeof bytes);
+    if (swap)
+        for (std::size_t i = 0; i < sizeof(T) / 2; ++i) std::swap(bytes[i], bytes[sizeof(T) - 1 - i]);
+    T value;
+    std::memcpy(&value, bytes, sizeof value);
+    return value;
+}
+
 // A position in a file. Fields are read within one line unless skip_space() is called between them; line ends
 // are "\n", "\r\n" or "\r". Line numbers are computed only when a failure needs one, so that reading does not
 // pay for them. skip_space() and take() report the file's progress now and then, which throws if it is
@@ -157,7 +169,9 @@ public:
         return data;
     }
     template <class T>
-    T binary(bool swap, const char* what);
+    T binary(bool swap, const char* what) {
+        return load<T>(take(sizeof(T), what), swap);
+    }
 
     static bool is_blank(char c) noexcept { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
     static bool is_line_end(char c) noexcept { return c == '\n' || c == '\r'; }
@@ -191,23 +205,6 @@ private:
     char comment_;
     bool bytes_ = false;
 };
-
-// Reads the value stored at `data`, which need not be aligned; `swap` reverses its bytes.
-template <class T>
-T load(const char* data, bool swap) noexcept {
-    char bytes[sizeof(T)];
-    std::memcpy(bytes, data, sizeof bytes);
-    if (swap)
-        for (std::size_t i = 0; i < sizeof(T) / 2; ++i) std::swap(bytes[i], bytes[sizeof(T) - 1 - i]);
-    T value;
-    std::memcpy(&value, bytes, sizeof value);
-    return value;
-}
-
-template <class T>
-T Scanner::binary(bool swap, const char* what) {
-    return load<T>(take(sizeof(T), what), swap);
-}
 
 inline bool is_finite(const double p[3]) {
     return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);

@@ -28,14 +28,17 @@ public:
         buffer_ += c;
         return checked();
     }
-    // The shortest text that gives the same double.
-    Output& operator<<(double value) {
+    // A double as the shortest text that gives it again.
+    template <class Number>
+    requires std::is_arithmetic_v<Number> Output& operator<<(Number value) {
         char text[32];
-        return *this << std::string_view(
-                   text, static_cast<std::size_t>(write_double(text, text + sizeof text, value) - text));
+        char* end = nullptr;
+        if constexpr (std::is_floating_point_v<Number>)
+            end = write_double(text, text + sizeof text, value);
+        else
+            end = std::to_chars(text, text + sizeof text, value).ptr;
+        return *this << std::string_view(text, static_cast<std::size_t>(end - text));
     }
-    Output& operator<<(std::uint32_t value) { return number(value); }
-    Output& operator<<(std::uint64_t value) { return number(value); }
 
     template <class T>
     Output& binary(T value) {
@@ -53,12 +56,6 @@ public:
 private:
     static constexpr std::size_t piece = std::size_t{1} << 18;
 
-    template <class T>
-    Output& number(T value) {
-        char text[32];
-        const auto end = std::to_chars(text, text + sizeof text, value).ptr;
-        return *this << std::string_view(text, static_cast<std::size_t>(end - text));
-    }
     Output& checked() {
         if (buffer_.size() >= piece) flush();
         return *this;

@@ -46,6 +46,18 @@ struct Lattice {
     std::vector<std::uint8_t> kept;    // for each cube, by its lowest corner, whether it is in the ball
     std::vector<std::uint32_t> vertex; // for each point its vertex, or no_vertex
     std::uint64_t cubes = 0;
+
+    std::int64_t step(int axis) const { return axis == 0 ? 1 : axis == 1 ? side : side * side; }
+    // The point at a corner of the cube at a point; the bits of its number are its coordinates.
+    std::size_t corner(std::size_t cube, int number) const {
+        return cube + static_cast<std::size_t>((number & 1) + (number >> 1 & 1) * side +
+                                               (number >> 2) * side * side);
+    }
+    // Of a point, from the origin's cube on.
+    std::int64_t sum_of_coordinates(std::size_t point) const {
+        const auto p = static_cast<std::int64_t>(point);
+        return p % side + p / side % side + p / (side * side) - 3 * half;
+    }
 };
 
 constexpr std::uint32_t no_vertex = 0xffffffffu;
@@ -72,10 +84,7 @@ Lattice select_cubes(double spacing) {
     for (std::size_t i = 0; i + static_cast<std::size_t>(side * side + side + 1) < lattice.inside.size();
          ++i) {
         bool all = true;
-        for (int corner = 0; corner < 8; ++corner) {
-            const std::int64_t step = (corner & 1) + ((corner >> 1) & 1) * side + (corner >> 2) * side * side;
-            all = all && lattice.inside[i + static_cast<std::size_t>(step)];
-        }
+        for (int corner = 0; corner < 8; ++corner) all = all && lattice.inside[lattice.corner(i, corner)];
         lattice.kept[i] = all;
         lattice.cubes += all;
     }
@@ -94,25 +103,21 @@ double signed_volume(const double* a, const double* b, const double* c, const do
 // end in it, twelve along those.
 void smooth_inside(std::vector<double>& positions, const Lattice& lattice,
                    const std::vector<std::uint32_t>& points, const std::vector<std::uint8_t>& boundary) {
-    const std::int64_t steps[3] = {1, lattice.side, lattice.side * lattice.side};
     std::array<std::int64_t, 18> neighbours{};
     std::size_t count = 0;
-    for (const std::int64_t step : steps) {
-        neighbours[count++] = -step;
-        neighbours[count++] = step;
-    }
+    for (int axis = 0; axis < 3; ++axis)
+        for (const int i : {-1, 1}) neighbours[count++] = i * lattice.step(axis);
     for (int axis = 0; axis < 3; ++axis)
         for (const int i : {-1, 1})
-            for (const int j : {-1, 1}) neighbours[count++] = i * steps[axis] + j * steps[(axis + 1) % 3];
+            for (const int j : {-1, 1})
+                neighbours[count++] = i * lattice.step(axis) + j * lattice.step((axis + 1) % 3);
     std::vector<double> old;
     for (int sweep = 0; sweep < 3; ++sweep) {
         old = positions;
         for (std::size_t v = 0; v < points.size(); ++v) {
             if (boundary[v]) continue;
             const std::int64_t p = points[v];
-            const std::int64_t x = p % lattice.side, y = p / lattice.side % lattice.side,
-                               z = p / (lattice.side * lattice.side);
-            const bool diagonals = ends_diagonals(x + y + z - 3 * lattice.half);
+            const bool diagonals = ends_diagonals(lattice.sum_of_coordinates(points[v]));
             const std::size_t degree = diagonals ? 18 : 6;
             Point sum = {0, 0, 0};
             for (std::size_t n = 0; n < degree; ++n) {
@@ -169,23 +174,18 @@ MeshData build(double spacing) {
     Lattice lattice = select_cubes(spacing);
     if (lattice.cubes == 0) return mesh;
     const std::int64_t side = lattice.side;
-    const std::array<std::int64_t, 3> steps = {1, side, side * side};
 
     std::vector<std::uint32_t> points; // lattice point of each vertex
     std::vector<std::uint8_t> used(lattice.inside.size()), outer(lattice.inside.size());
     for (std::size_t cube = 0; cube < lattice.kept.size(); ++cube) {
         if (!lattice.kept[cube]) continue;
         for (int corner = 0; corner < 8; ++corner) {
-            std::int64_t point = static_cast<std::int64_t>(cube);
-            for (std::size_t k = 0; k < 3; ++k)
-                if (corner >> k & 1) point += steps[k];
-            used[static_cast<std::size_t>(point)] = 1;
+            const std::size_t point = lattice.corner(cube, corner);
+            used[point] = 1;
             // A corner is on the boundary if a face of this cube that it belongs to has no cube behind it.
-            for (std::size_t k = 0; k < 3; ++k) {
-                const std::int64_t behind =
-                    static_cast<std::int64_t>(cube) + (corner >> k & 1 ? steps[k] : -steps[k]);
-                if (!lattice.kept[static_cast<std::size_t>(behind)])
-                    outer[static_cast<std::size_t>(point)] = 1;
+            for (int k = 0; k < 3; ++k) {
+                const std::int64_t step = corner >> k & 1 ? lattice.step(k) : -lattice.step(k);
+                if (!lattice.kept[cube + static_cast<std::size_t>(step)]) outer[point] = 1;
             }
         }
     }
@@ -214,14 +214,9 @@ MeshData build(double spacing) {
     mesh.tets.reserve(20 * lattice.cubes);
     for (std::size_t cube = 0; cube < lattice.kept.size(); ++cube) {
         if (!lattice.kept[cube]) continue;
-        const std::int64_t c = static_cast<std::int64_t>(cube);
-        const std::int64_t sum = c % side + c / side % side + c / (side * side) - 3 * lattice.half;
-        for (const auto& tet : five_tets(sum))
-            for (const std::uint8_t corner : tet) {
-                const std::int64_t point =
-                    c + (corner & 1) * steps[0] + (corner >> 1 & 1) * steps[1] + (corner >> 2) * steps[2];
-                mesh.tets.push_back(lattice.vertex[static_cast<std::size_t>(point)]);
-            }
+        for (const auto& tet : five_tets(lattice.sum_of_coordinates(cube)))
+            for (const std::uint8_t corner : tet)
+                mesh.tets.push_back(lattice.vertex[lattice.corner(cube, corner)]);
     }
     drop_flat(mesh);
     return mesh;
