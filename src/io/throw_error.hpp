@@ -11,7 +11,7 @@ inline std::string text_of(const char* pattern, va_list arguments) {
     return text;
 }
 
-VOX_PRINTF(2) [[noreturn]] inline void throw_error(vox_result result, const char* pattern, ...) {
+[[noreturn]] VOX_PRINTF(2) inline void throw_error(vox_result result, const char* pattern, ...) {
     va_list arguments;
     va_start(arguments, pattern);
     const std::string text = text_of(pattern, arguments);

@@ -85,7 +85,7 @@ double extreme(Random& random, unsigned neighbour) {
 Body random_body(Random& random, std::int32_t size, double share) {
     Body body;
     const double s = size;
-    body.frame = make_frame({0, 0, 0}, {s, s, s}, 1);
+    body.frame = make_frame({Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(s, s, s)}, 1);
     std::vector<Run> runs;
     for (std::int32_t parity = 0; parity < 2; ++parity)
         for (std::int32_t z = 2; z < size + 2; ++z)

@@ -68,9 +68,9 @@ public:
     // Throws "FILE, line N: expected WHAT, found ..." with the word at this place.
     [[noreturn]] void expected(const char* what);
     // Throws "FILE, line N: TEXT".
-    VOX_PRINTF(2) [[noreturn]] void fail(const char* pattern, ...) const;
-    VOX_PRINTF(3) [[noreturn]] void fail_at(std::size_t offset, const char* pattern, ...) const;
-    VOX_PRINTF(2) [[noreturn]] void unsupported(const char* pattern, ...) const;
+    [[noreturn]] VOX_PRINTF(2) void fail(const char* pattern, ...) const;
+    [[noreturn]] VOX_PRINTF(3) void fail_at(std::size_t offset, const char* pattern, ...) const;
+    [[noreturn]] VOX_PRINTF(2) void unsupported(const char* pattern, ...) const;
 
     // ---- text ----
 
