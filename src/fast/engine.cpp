@@ -48,18 +48,15 @@ void FastEngine::detect(std::span<const Body> bodies, std::span<const fast::Prep
 void FastEngine::begin(std::span<const Body> bodies, std::span<const fast::PreparedBody> prepared,
                        const FastSettings& settings) {
     fast::begin_step(bodies, settings.workers, step_);
-    step_.others = settings.others;
     for (std::size_t b = 0; b < bodies.size(); ++b) {
         fast::StepBody& body = step_.of[b];
         body.tiles = prepared[b].tiles;
         body.last = &prepared[b].state->last_positions;
         if (settings.winding && bodies[b].self_collision && prepared[b].boundary->is_closed) {
             body.boundary = prepared[b].boundary;
-            body.orientation =
-                &prepared[b].state->orientation.make(prepared[b].state->last_positions.positions.memory());
+            body.orientation = &prepared[b].state->orientation;
         }
-        body.moved = !settings.carry || prepared[b].moved;
-        body.compared = prepared[b].compared;
+        body.moved = !settings.carry;
     }
     fast::lay_out(step_, boxes_);
     workers_.grow(step_.worker_count());

@@ -31,7 +31,6 @@ struct FastSettings {
     // or gone excepted, and not after a step that failed.
     bool carry = false;
     bool keep_certified = false; // for certified()
-    Box others = empty_box;      // see Step
 };
 
 // The engine's buffers live here from step to step, so that the steady state allocates nothing.
@@ -50,9 +49,6 @@ public:
     // the constructor and that of `hits` are used by many threads at once.
     void detect(std::span<const Body> bodies, std::span<const fast::PreparedBody> prepared,
                 const FastSettings& settings, Array<Hit>& hits, Counters& counters, Profile& profile);
-
-    // For the pairs of boxes that are looked for between steps: good until the next one.
-    fast::PairBuffers& pair_buffers() noexcept { return broad_phase_.pair_buffers; }
 
     // What the last step found, for the cost model: good until the next one, pointers and spans of the Step
     // excepted, which are no longer valid.

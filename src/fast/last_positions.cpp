@@ -60,14 +60,6 @@ bool compare_exact(LastPositions& rest, std::size_t part, const Positions& posit
     });
 }
 
-bool take_in(LastPositions& rest, const Positions& positions, bool rounded, std::uint32_t count,
-             const Box& box) {
-    rest.expect(rounded);
-    if (rounded) return !compare_exact(rest, 0, positions, 0, count, box);
-    if (!is_packed(positions)) return !copy_strided(rest, 0, positions, 0, count);
-    return !compare_packed(rest, 0, reinterpret_cast<const float*>(positions.data), 0, count, box);
-}
-
 void LastPositions::expect(bool rounded) {
     const std::size_t count = rounded ? positions.size() / 3 : 0;
     if (exact.size() == count) return;

@@ -50,9 +50,4 @@ bool compare_packed(LastPositions& rest, std::size_t part, const float* position
 bool compare_exact(LastPositions& rest, std::size_t part, const Positions& positions, std::uint32_t first,
                    std::uint32_t last, const Box& box) noexcept;
 
-// Returns whether a body of one part moved since the last step, and keeps its finite positions for the next.
-// `box` is the box around them; `rounded` as in StepBody.
-bool take_in(LastPositions& rest, const Positions& positions, bool rounded, std::uint32_t count,
-             const Box& box);
-
 } // namespace vox::fast

@@ -21,11 +21,9 @@ void MeshState::update(const TiledMesh& mesh, std::uint32_t version, std::uint32
         return;
     }
     make_room(mesh.tiles, vertex_count);
-    if (OrientationCache* followed = orientation.if_made()) {
-        for (std::uint32_t s = 0; changes_ < mesh.places.changes && s < followed->shapes.size(); ++s)
-            if (mesh.places.changed_at[s] > changes_) followed->forget(s);
-        if (!followed->shapes.empty()) followed->prepare(mesh.tiles);
-    }
+    for (std::uint32_t s = 0; changes_ < mesh.places.changes && s < orientation.shapes.size(); ++s)
+        if (mesh.places.changed_at[s] > changes_) orientation.forget(s);
+    if (!orientation.shapes.empty()) orientation.prepare(mesh.tiles);
     changes_ = mesh.places.changes;
 }
 

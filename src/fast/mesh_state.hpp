@@ -1,7 +1,6 @@
 // What the fast engine keeps of a mesh from step to step, beside what the mesh keeps of itself.
 #pragma once
 
-#include "base/lazy.hpp"
 #include "fast/last_positions.hpp"
 #include "fast/winding/orientation.hpp"
 #include "mesh/tiled_mesh.hpp"
@@ -12,18 +11,16 @@
 namespace vox::fast {
 
 struct MeshState {
-    explicit MeshState(std::pmr::memory_resource* memory) noexcept : last_positions(memory) {}
+    explicit MeshState(std::pmr::memory_resource* memory) noexcept
+        : last_positions(memory), orientation(memory) {}
 
     LastPositions last_positions;
-    Rare<OrientationCache> orientation; // of bodies that winding numbers may be of use for
+    OrientationCache orientation; // of bodies that winding numbers may be of use for
 
     // Brings the state up to date with the tiles of a mesh, before a step. `version` is that of the tiles:
     // where they were made anew, so is the state, else it takes in the edits since the last call. Throws what
     // the memory throws; the next call completes what is missing then.
     void update(const TiledMesh& mesh, std::uint32_t version, std::uint32_t vertex_count);
-
-    // Whether update() was called for these tiles.
-    bool is_of(std::uint32_t version) const noexcept { return version_ == version; }
 
     // The next step takes the mesh for one that moved.
     void invalidate_positions() noexcept {
@@ -42,8 +39,6 @@ struct PreparedBody {
     const Tiles* tiles;
     const Boundary* boundary;
     MeshState* state;
-    bool compared = false; // whether it moved is known, and its last positions are those of this step
-    bool moved = false;
 };
 
 } // namespace vox::fast

@@ -10,16 +10,12 @@ namespace {
 
 // Far from zero, floats are far apart. So bodies whose positions are rounded anyway are rounded relative to a
 // point among them. Zero where they are near enough to it, judged by a few vertices: it only matters for
-// speed. `others` is a box around those that are not among the bodies.
-Vec3d choose_origin(std::span<const Body> bodies, const Box& others) {
+// speed.
+Vec3d choose_origin(std::span<const Body> bodies) {
     constexpr std::uint32_t samples = 8;
     constexpr double far = 256; // sizes away
     constexpr double infinity = std::numeric_limits<double>::infinity();
     double lo[3] = {infinity, infinity, infinity}, hi[3] = {-infinity, -infinity, -infinity};
-    if (!is_empty(others)) {
-        std::copy_n(others.lo, 3, lo);
-        std::copy_n(others.hi, 3, hi);
-    }
     for (const Body& body : bodies) {
         if (!body.positions.rounded()) continue;
         const std::uint32_t count = std::min(samples, body.vertex_count);
@@ -50,12 +46,11 @@ void add_pieces(std::uint32_t body, std::uint32_t count, std::uint32_t most, Arr
 void begin_step(std::span<const Body> bodies, Workers* workers, Step& step) {
     step.bodies = bodies;
     step.workers = workers;
-    step.others = empty_box;
     step.of.assign(bodies.size(), {});
 }
 
 void lay_out(Step& step, StepBoxes& boxes) {
-    step.origin = choose_origin(step.bodies, step.others);
+    step.origin = choose_origin(step.bodies);
     std::size_t blocks = 0, groups = 0, supers = 0, tiles = 0;
     step.block_pieces.clear();
     step.super_pieces.clear();

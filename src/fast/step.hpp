@@ -42,7 +42,6 @@ struct StepBody {
     const Boundary* boundary;      // null: its self-collision is not culled by winding numbers
     OrientationCache* orientation; // null where `boundary` is
     bool moved;                    // since the last step, or may have; stream() adds what it finds
-    bool compared;                 // `moved` is known, and `last` has the positions already
 
     // Set by lay_out().
     bool rounded; // positions are the nearest floats of the exact ones less Step::origin, else as they are
@@ -63,8 +62,7 @@ struct Step {
     Array<StepBody> of; // of each of `bodies`
     Array<Piece> block_pieces, super_pieces;
     std::size_t block_count = 0, super_count = 0, tile_count = 0;
-    Vec3d origin{};         // subtracted from positions that are rounded
-    Box others = empty_box; // around bodies whose positions are rounded, and that the step leaves out
+    Vec3d origin{}; // subtracted from positions that are rounded
     bool moved_origin() const noexcept { return origin.x != 0 || origin.y != 0 || origin.z != 0; }
     Workers* workers = nullptr;
 

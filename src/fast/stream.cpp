@@ -269,7 +269,6 @@ bool stream_piece(const Step& step, const Piece& piece, StepBoxes& boxes, Box& b
     Box* out = boxes.blocks.data() + body.first_block + piece.first;
     Box* groups = boxes.groups.data() + body.first_group + piece.first / group_blocks;
     const bool finite = stream_boxes(body.positions, first, out, groups, box);
-    if (body.compared) return finite;
     if (in_place && body.last) moved = !compare_packed(*body.last, part, body.positions, begin, end, box);
     if (body.rounded && body.last) moved = !compare_exact(*body.last, part, positions, begin, end, box);
     return finite;

@@ -85,14 +85,13 @@ vox_grid::vox_grid(const vox_grid_desc& desc, const MemoryShare& memory)
       workers_(tasks_, desc.worker_count), fast_(!desc.reference),
       settings_(desc.reference ? read_reference(desc.reference) : ReferenceSettings{}),
       skips_bad_meshes_((desc.flags & VOX_GRID_SKIP_BAD_BODIES) != 0), requested_cell_size_(desc.cell_size),
-      used_cell_size_(desc.cell_size), adaptive_(weights_of(desc.reference)), shared_tets_(&memory_),
-      meshes_(&memory_), bodies_(&memory_), prepared_(&memory_), lone_(&memory_), fast_engine_(&memory_),
-      reference_(&memory_), topologies_(&memory_), trees_(&memory_),
-      finds_constraints_((desc.flags & VOX_GRID_CONSTRAINTS) != 0), hits_(&memory_),
-      surface_versions_(&memory_), contacts_(&memory_), interiors_(&memory_), left_out_(&memory_),
-      penetrations_(&memory_), pairs_(&memory_), touching_pairs_(&memory_), constraints_(&memory_),
-      chosen_pairs_(&memory_), chosen_bodies_(&memory_), chosen_hits_(&memory_), edge_bodies_(&memory_),
-      entered_bodies_(&memory_), locators_(share_), query_bodies_(&memory_) {
+      used_cell_size_(desc.cell_size), adaptive_(weights_of(desc.reference)), meshes_(&memory_),
+      bodies_(&memory_), prepared_(&memory_), fast_engine_(&memory_), reference_(&memory_),
+      topologies_(&memory_), trees_(&memory_), finds_constraints_((desc.flags & VOX_GRID_CONSTRAINTS) != 0),
+      hits_(&memory_), surface_versions_(&memory_), contacts_(&memory_), interiors_(&memory_),
+      left_out_(&memory_), penetrations_(&memory_), pairs_(&memory_), touching_pairs_(&memory_),
+      constraints_(&memory_), chosen_pairs_(&memory_), chosen_bodies_(&memory_), chosen_hits_(&memory_),
+      edge_bodies_(&memory_), entered_bodies_(&memory_), locators_(share_), query_bodies_(&memory_) {
     if (finds_constraints_) depth_.emplace(&memory_, trees_);
     if (desc.flags & VOX_GRID_EDGES) edges_.emplace(&memory_);
     set_margin(desc.margin);
@@ -105,7 +104,6 @@ vox_grid::vox_grid(const vox_grid_desc& desc, const MemoryShare& memory)
 // What the stages need of a mesh, unless it is there already. The topology comes first, as tiles use its
 // facets.
 void vox_grid::prepare(Mesh& mesh, fast::MeshState& state) {
-    if (mesh.may_share()) mesh.share(shared_tets_);
     if (needs_topology(mesh.filter())) mesh.make_topology();
     if (!fast_ || !mesh.has_positions()) return;
     mesh.make_tiles();
@@ -355,7 +353,6 @@ void vox_grid::find_penetrations() {
 
 void vox_grid::stop_finding_penetrations() noexcept {
     meshes_.for_each([](vox_body, MeshSlot& slot) { slot.mesh.drop_topology(); });
-    shared_tets_.drop_topologies();
     depth_.reset();
     trees_.forget_all();
     penetrations_ = Penetrations(&memory_);
@@ -399,7 +396,6 @@ void vox_grid::drop_surfaces() noexcept {
         if (!needs_topology(slot.mesh.filter())) slot.mesh.drop_topology();
     });
     trees_.forget_all();
-    if (!finds_penetrations()) shared_tets_.drop_topologies();
 }
 // ---- what a cell size is suggested from, and the log ------------------------------------------------
 

@@ -13,7 +13,6 @@
 #include "fast/engine.hpp"
 #include "grid/constraints.hpp"
 #include "grid/edge_contacts.hpp"
-#include "grid/lone_bodies.hpp"
 #include "grid/margin_contacts.hpp"
 #include "grid/mesh_table.hpp"
 #include "grid/pairs.hpp"
@@ -164,13 +163,11 @@ private:
     double used_cell_size_;          // in the last step; before the first one the requested one
     vox::AdaptiveCellSize adaptive_; // chooses for the reference engine
 
-    vox::SharedTets shared_tets_; // before the meshes that share them
     vox::MeshTable meshes_;
 
     // one step
     vox::Array<vox::Body> bodies_;
     vox::Array<vox::fast::PreparedBody> prepared_; // of each body, for the fast engine
-    vox::LoneBodies lone_;                         // which are not among the bodies
     vox::FastEngine fast_engine_;
     vox::ReferenceEngine reference_;
     vox::Array<const vox::Topology*> topologies_; // of each body, for the depth stage

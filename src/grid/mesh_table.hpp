@@ -43,7 +43,6 @@ public:
 
     void reserve(std::uint32_t mesh_count);
     std::size_t slot_count() const noexcept { return slots_.size(); }
-    MeshSlot& slot(std::size_t index) noexcept { return slots_[index]; }
 
     // Of all meshes together.
     std::uint64_t vertex_count() const noexcept { return vertex_count_; }

@@ -81,7 +81,7 @@ void Snapshot::save_meshes(const vox_grid& grid, SnapshotWriter& out) {
         out.u32(has_positions);
         out.u32(positions.doubles ? VOX_FORMAT_DOUBLE : VOX_FORMAT_FLOAT);
         if (mesh.has_transform_)
-            for (const double element : mesh.transform_->rows) out.f64(element);
+            for (const double element : mesh.transform_) out.f64(element);
         for (std::uint32_t t = 0; t < body.tets.size(); ++t)
             for (const std::uint32_t vertex : mesh.given(t).v) out.u32(vertex);
         for (std::uint32_t v = 0; has_positions && v < body.vertex_count; ++v)
@@ -161,13 +161,13 @@ void Snapshot::load_mesh(SnapshotChunk& in, Loading& to) {
 
 void Snapshot::save_cuts(const vox_grid& grid, SnapshotWriter& out) {
     for_each_mesh(grid, [&](vox_body id, const Mesh& mesh) {
-        if (mesh.edits_->off.count() == 0 && mesh.edits_->removed_vertices.count() == 0) return;
+        if (mesh.edits_.off.count() == 0 && mesh.edits_.removed_vertices.count() == 0) return;
         out.begin_chunk("CUTS");
         out.u32(id);
         out.u32(0); // reserved
-        save_bits(mesh.edits_->off.words(), mesh.tet_count(), out);
-        save_bits(mesh.edits_->removed.words(), mesh.tet_count(), out);
-        save_bits(mesh.edits_->removed_vertices.words(), mesh.vertex_count(), out);
+        save_bits(mesh.edits_.off.words(), mesh.tet_count(), out);
+        save_bits(mesh.edits_.removed.words(), mesh.tet_count(), out);
+        save_bits(mesh.edits_.removed_vertices.words(), mesh.vertex_count(), out);
         out.end_chunk();
     });
 }
@@ -193,7 +193,7 @@ void Snapshot::load_cuts(SnapshotChunk& in, Loading& to) {
 
 void Snapshot::save_filters(const vox_grid& grid, SnapshotWriter& out) {
     for_each_mesh(grid, [&](vox_body id, const Mesh& mesh) {
-        const RestPose& rest = mesh.self_filter_->rest;
+        const RestPose& rest = mesh.self_filter_.rest;
         const vox_filter filter = mesh.filter(), usual = checked_filter({});
         if (rest.empty() && filter.group == usual.group && filter.category == usual.category &&
             filter.mask == usual.mask && filter.world == usual.world &&
@@ -251,8 +251,7 @@ void Snapshot::load_filter(SnapshotChunk& in, Loading& to) {
     }
     in.end();
     or_refuse(in, id, [&] {
-        if (rest != no_rest)
-            mesh.self_filter_.make(&to.grid.memory_).rest = mesh.rest_pose(given, mesh.vertex_count());
+        if (rest != no_rest) mesh.self_filter_.rest = mesh.rest_pose(given, mesh.vertex_count());
         mesh.set_filter(checked_filter(filter));
     });
 }

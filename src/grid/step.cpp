@@ -77,10 +77,7 @@ void vox_grid::step() {
         throw;
     }
 
-    counters.bodies = static_cast<std::uint32_t>(bodies_.size() + lone_.totals().bodies);
-    counters.vertices = lone_.totals().vertices;
-    counters.tets = lone_.totals().tets;
-    counters.moved_bodies += carry ? lone_.totals().moved : lone_.totals().bodies;
+    counters.bodies = static_cast<std::uint32_t>(bodies_.size());
     for (const Body& body : bodies_) {
         counters.vertices += body.vertex_count;
         counters.tets += body.tets.size() - body.off_count;
@@ -100,7 +97,7 @@ void vox_grid::step() {
     list_counters();
     stepped_ = true;
     contacts_hold_ = fast_;
-    meshes_hold_ = fast_ && left_out_.empty() && lone_.totals().bodies == 0;
+    meshes_hold_ = fast_ && left_out_.empty();
 }
 
 // Pairs that touch by edges, or by vertices that went through.
@@ -149,11 +146,6 @@ void vox_grid::forget_contacts() noexcept {
 // others already.
 void vox_grid::detect(bool& carry, Counters& counters, Profile& profile) {
     const auto detect_once = [&] {
-        if (fast_ && !shared_tets_.empty() && !near_faces_) // a body near others is not alone
-            lone_.find(meshes_, fast_engine_.last_step().moved_origin(), fast_engine_.pair_buffers(),
-                       workers_);
-        else
-            lone_.forget(); // small bodies share their tets: there are none
         gather_bodies(counters);
         if (fast_)
             detect_fast(carry, counters, profile);
@@ -210,7 +202,7 @@ void vox_grid::gather_bodies(Counters& counters) {
     topologies_.clear();
     surface_versions_.clear();
     prepared_.clear();
-    const auto gather = [&](vox_body id, MeshSlot& slot) {
+    meshes_.for_each([&](vox_body id, MeshSlot& slot) {
         Mesh& mesh = slot.mesh;
         slot.body = MeshSlot::none;
         if (!mesh.is_enabled()) {
@@ -241,13 +233,8 @@ void vox_grid::gather_bodies(Counters& counters) {
         topologies_.push_back(&mesh.topology());
         if (finds_surfaces()) surface_versions_.push_back({mesh.topology_version(), mesh.tiles_version()});
         slot.edited = false;
-        if (fast_)
-            prepared_.push_back({&mesh.tiled().tiles, &mesh.tiled().boundary, &slot.state,
-                                 lone_.compared(slot_of(id)), lone_.moved(slot_of(id))});
-    };
-    for (std::uint32_t s = 0; s < meshes_.slot_count(); ++s)
-        if (!lone_.is_lone(s) && meshes_.slot(s).live)
-            gather(make_id(s, meshes_.slot(s).generation), meshes_.slot(s));
+        if (fast_) prepared_.push_back({&mesh.tiled().tiles, &mesh.tiled().boundary, &slot.state});
+    });
 }
 
 // Removed vertices make no contacts.
@@ -264,8 +251,7 @@ void vox_grid::detect_fast(bool carry, Counters& counters, Profile& profile) {
     const FastSettings settings{.cell_size = requested_cell_size_,
                                 .workers = &workers_,
                                 .carry = carry,
-                                .keep_certified = edges_.has_value(),
-                                .others = lone_.totals().rounded};
+                                .keep_certified = edges_.has_value()};
     fast_engine_.detect(bodies_, prepared_, settings, hits_, counters, profile);
     if (chooses_cell_size()) used_cell_size_ = fast_engine_.cell_size();
 }

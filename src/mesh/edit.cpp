@@ -39,7 +39,7 @@ void check_items(std::span<const std::uint32_t> items, std::size_t count, const 
 // ---- tetrahedra -----------------------------------------------------------------------------------
 
 void Mesh::check_tets(std::span<const std::uint32_t> tets) const {
-    check_items(tets, this->tets().size(), edits_->removed, "tets");
+    check_items(tets, this->tets().size(), edits_.removed, "tets");
 }
 
 void Mesh::check_corners(std::uint32_t tet, const Tet& corners) const {
@@ -47,7 +47,7 @@ void Mesh::check_corners(std::uint32_t tet, const Tet& corners) const {
         if (vertex >= vertex_count_)
             throw Error(VOX_ERROR_INVALID_MESH, format("tet %" PRIu32 " names vertex %" PRIu32 " of %" PRIu32,
                                                        tet, vertex, vertex_count_));
-        if (edits_->removed_vertices[vertex])
+        if (edits_.removed_vertices[vertex])
             throw Error(VOX_ERROR_INVALID_MESH,
                         format("tet %" PRIu32 " names vertex %" PRIu32 ", which was removed", tet, vertex));
     }
@@ -56,17 +56,17 @@ void Mesh::check_corners(std::uint32_t tet, const Tet& corners) const {
 // Afterwards switch_off() cannot fail.
 MeshEdits& Mesh::reserve_off() {
     own_tets();
-    MeshEdits& edits = edits_.make(memory());
+    MeshEdits& edits = edits_;
     edits.off.reserve(tets_.size());
     if (edits.given.empty()) edits.given.assign(tets_.begin(), tets_.end());
     return edits;
 }
 
 void Mesh::switch_off(std::uint32_t tet, Array<TetChange>& changes) noexcept {
-    MeshEdits& edits = *edits_.if_made();
+    MeshEdits& edits = edits_;
     if (edits.off[tet]) return;
     changes.push_back({tet, true, false, tets_[tet], {}});
-    prepared_->tets[tet] = hidden(tets_[tet]);
+    prepared_.tets[tet] = hidden(tets_[tet]);
     edits.off.add(tet);
 }
 
@@ -80,9 +80,9 @@ void Mesh::set_tets_enabled(std::span<const std::uint32_t> tets, bool enabled) {
 
     for (const std::uint32_t tet : tets) {
         if (!enabled) switch_off(tet, changes);
-        if (!enabled || !edits_->off[tet]) continue;
-        prepared_->tets[tet] = edits_->given[tet]; // the mesh's own, as one of them is off
-        edits_.if_made()->off.remove(tet);
+        if (!enabled || !edits_.off[tet]) continue;
+        prepared_.tets[tet] = edits_.given[tet]; // the mesh's own, as one of them is off
+        edits_.off.remove(tet);
         changes.push_back({tet, false, true, {}, tets_[tet]});
     }
     apply(changes);
@@ -110,12 +110,11 @@ void Mesh::replace_tets(std::span<const std::uint32_t> tets, std::span<const Tet
     changes.reserve(tets.size());
     if (tets.empty()) return;
     Array<Tet>& own = own_tets();
-    MeshEdits* edits = edits_.if_made();
 
     for (std::size_t i = 0; i < tets.size(); ++i) {
         const std::uint32_t tet = tets[i];
-        const bool is_off = edits_->off[tet];
-        if (!edits_->given.empty()) edits->given[tet] = corners[i];
+        const bool is_off = edits_.off[tet];
+        if (!edits_.given.empty()) edits_.given[tet] = corners[i];
         if (!is_off) changes.push_back({tet, true, true, tets_[tet], corners[i]});
         own[tet] = is_off ? hidden(corners[i]) : corners[i];
     }
@@ -133,10 +132,10 @@ std::uint32_t Mesh::append_tets(std::span<const Tet> corners) {
     const std::size_t count = own.size() + corners.size();
     reserve_growing(own, count);
     tets_ = own; // may have moved
-    MeshEdits* edits = edits_->given.empty() ? nullptr : edits_.if_made();
-    if (edits) reserve_growing(edits->given, count);
+    const bool has_given = !edits_.given.empty();
+    if (has_given) reserve_growing(edits_.given, count);
 
-    if (edits) edits->given.insert(edits->given.end(), corners.begin(), corners.end());
+    if (has_given) edits_.given.insert(edits_.given.end(), corners.begin(), corners.end());
     for (const Tet& tet : corners) {
         changes.push_back({static_cast<std::uint32_t>(own.size()), false, true, {}, tet});
         own.push_back(tet);
@@ -201,11 +200,11 @@ std::uint32_t Mesh::append_vertices(const vox_vertices_desc& desc) {
 
     // The rest pose grows, too.
     RestPose rest(memory());
-    const bool has_rest = !self_filter_->rest.empty() || (before == 0 && filter_.self_rest_distance > 0);
+    const bool has_rest = !self_filter_.rest.empty() || (before == 0 && filter_.self_rest_distance > 0);
     if (has_rest && desc.rest_positions.data) {
         rest = rest_pose(check_positions_of(added, desc.rest_positions, "rest_positions"), added);
     } else if (has_rest && desc.copies_of) {
-        rest = self_filter_->rest.of({desc.copies_of, added});
+        rest = self_filter_.rest.of({desc.copies_of, added});
     } else if (has_rest) {
         Positions poses = given;
         if (owns)
@@ -215,16 +214,14 @@ std::uint32_t Mesh::append_vertices(const vox_vertices_desc& desc) {
         else
             throw Error(VOX_ERROR_INVALID_STATE,
                         "the mesh has a rest distance: its new vertices need rest_positions, or positions");
-        if (has_transform_)
-            poses.transform = transform_->rows.data(); // the rest pose is that of the collisions
+        if (has_transform_) poses.transform = transform_.data(); // the rest pose is that of the collisions
         rest = rest_pose(poses, added);
     }
-    if (has_rest) self_filter_.make(memory()).rest.reserve_for(rest);
-    if (is_shared_) own_prepared(); // which is of as many vertices as before
+    if (has_rest) self_filter_.rest.reserve_for(rest);
     const std::size_t doubles = (count * size + sizeof(double) - 1) / sizeof(double);
     if (owns) reserve_growing(owned_, doubles);
 
-    if (SelfFilter* own = self_filter_.if_made()) own->rest.append(rest);
+    self_filter_.rest.append(rest);
     vertex_count_ = count;
     if (owns) {
         owned_.resize(doubles);
@@ -238,7 +235,7 @@ std::uint32_t Mesh::append_vertices(const vox_vertices_desc& desc) {
 }
 
 void Mesh::remove_vertices(std::span<const std::uint32_t> vertices) {
-    check_items(vertices, vertex_count_, edits_->removed_vertices, "vertices");
+    check_items(vertices, vertex_count_, edits_.removed_vertices, "vertices");
     if (vertices.empty()) return;
     MeshEdits& edits = list_tets_of();
     for (const std::uint32_t v : vertices)
@@ -250,15 +247,14 @@ void Mesh::remove_vertices(std::span<const std::uint32_t> vertices) {
 
     for (const std::uint32_t v : vertices) {
         edits.removed_vertices.add(v);
-        if (has_tiles_ && prepared_ && !is_shared_)
-            remove_loose(prepared_->tiled.boundary, v); // else there is none
+        if (has_tiles_) remove_loose(prepared_.tiled.boundary, v);
     }
 }
 
 void Mesh::restore_edits(std::span<const std::uint64_t> off, std::span<const std::uint64_t> removed,
                          std::span<const std::uint64_t> removed_vertices) {
     const auto tets = static_cast<std::uint32_t>(this->tets().size());
-    MeshEdits& edits = edits_.make(memory());
+    MeshEdits& edits = edits_;
     edits.removed_vertices.reserve(vertex_count_);
     for (std::uint32_t v = 0; v < vertex_count_; ++v)
         if (has_bit(removed_vertices, v)) edits.removed_vertices.add(v);
@@ -281,24 +277,22 @@ void Mesh::restore_edits(std::span<const std::uint64_t> off, std::span<const std
 // ---- what was prepared ----------------------------------------------------------------------------
 
 MeshEdits& Mesh::list_tets_of() {
-    MeshEdits& edits = edits_.make(memory());
+    MeshEdits& edits = edits_;
     if (!edits.has_tets_of) list_tets(tets(), edits.off.words(), vertex_count_, edits.tets_of);
     edits.has_tets_of = true;
     return edits;
 }
 
 void Mesh::invalidate_tiles() noexcept {
-    if (prepared_ && !is_shared_) prepared_->tiled = TiledMesh(memory());
+    prepared_.tiled = TiledMesh(memory());
     has_tiles_ = false;
 }
 
 void Mesh::invalidate_prepared() noexcept {
-    if (MeshEdits* edits = edits_.if_made()) {
-        edits->tets_of = IndexLists(memory());
-        edits->has_tets_of = false;
-    }
+    edits_.tets_of = IndexLists(memory());
+    edits_.has_tets_of = false;
     drop_topology();
-    if (SelfFilter* own = self_filter_.if_made()) own->rings = Rings(memory());
+    self_filter_.rings = Rings(memory());
     has_rings_ = filter_.self_rings == 0;
     sample_.reset();
     invalidate_tiles();
@@ -308,21 +302,20 @@ void Mesh::apply(std::span<const TetChange> changes) noexcept {
     if (changes.empty()) return;
     sample_.reset();
     const bool has_rings = has_rings_ && filter_.self_rings != 0;
-    const bool has_tets_of = edits_->has_tets_of;
+    const bool has_tets_of = edits_.has_tets_of;
     if (!has_tets_of && !has_tiles_ && !has_topology_ && !has_rings) return;
     // Repairing so many takes longer than making all anew.
     if (changes.size() > tets_.size() / 8 + 64) return invalidate_prepared();
     try {
-        if (has_tets_of) apply_changes(changes, edits_.if_made()->tets_of);
+        if (has_tets_of) apply_changes(changes, edits_.tets_of);
         const IndexLists& tets_of = list_tets_of().tets_of;
-        if (has_tiles_ && !repair(prepared_->tiled, body(VOX_NULL_BODY), changes, tets_of))
-            invalidate_tiles();
+        if (has_tiles_ && !repair(prepared_.tiled, body(VOX_NULL_BODY), changes, tets_of)) invalidate_tiles();
         if (has_topology_) {
             check_tet_count(tets_.size());
             ++topology_version_;
-            repair_topology(tets_, tets_of, changes, prepared_->topology);
+            repair_topology(tets_, tets_of, changes, prepared_.topology);
         }
-        if (has_rings) self_filter_.make(memory()).rings.repair(tets_, tets_of, changes, filter_.self_rings);
+        if (has_rings) self_filter_.rings.repair(tets_, tets_of, changes, filter_.self_rings);
     } catch (...) { // out of memory, as a rule
         invalidate_prepared();
     }
@@ -331,12 +324,11 @@ void Mesh::apply(std::span<const TetChange> changes) noexcept {
 void Mesh::apply_vertices(std::uint32_t count_before) noexcept {
     sample_.reset();
     try {
-        if (edits_->has_tets_of) edits_.if_made()->tets_of.resize(vertex_count_);
-        if (has_tiles_ && !vox::add_vertices(own_prepared().tiled, count_before, vertex_count_))
+        if (edits_.has_tets_of) edits_.tets_of.resize(vertex_count_);
+        if (has_tiles_ && !vox::add_vertices(prepared_.tiled, count_before, vertex_count_))
             invalidate_tiles();
-        if (has_topology_) add_vertices(vertex_count_, own_prepared().topology);
-        if (has_rings_ && filter_.self_rings != 0)
-            self_filter_.make(memory()).rings.add_vertices(vertex_count_);
+        if (has_topology_) add_vertices(vertex_count_, prepared_.topology);
+        if (has_rings_ && filter_.self_rings != 0) self_filter_.rings.add_vertices(vertex_count_);
     } catch (...) {
         invalidate_prepared();
     }
@@ -346,11 +338,11 @@ void Mesh::apply_vertices(std::uint32_t count_before) noexcept {
 
 Mesh Mesh::with_topology(const vox_mesh_desc& desc, const Body& view) const {
     Mesh made(desc, view, checked_filter({}), memory());
-    made.set_transform(has_transform_ ? transform_->rows.data() : nullptr);
+    made.set_transform(has_transform_ ? transform_.data() : nullptr);
     if (!desc.positions.data && view.vertex_count == vertex_count_) {
         made.positions_ = positions_; // take_over() moves owned ones
-        if (!desc.rest_positions.data && !self_filter_->rest.empty())
-            made.self_filter_.make(memory()).rest = self_filter_->rest;
+        if (!desc.rest_positions.data && !self_filter_.rest.empty())
+            made.self_filter_.rest = self_filter_.rest;
     }
     made.set_filter(filter_);
     return made;

@@ -12,91 +12,48 @@ namespace vox {
 
 Mesh::Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter,
            std::pmr::memory_resource* memory)
-    : owned_(memory), filter_(checked_filter({})), user_data_(desc.user_data), positions_(view.positions),
-      tets_(view.tets), vertex_count_(view.vertex_count) {
-    if (!(desc.flags & VOX_MESH_BORROW_TETS) && !tets_.empty()) own_tets();
+    : Mesh(memory) {
+    user_data_ = desc.user_data;
+    positions_ = view.positions;
+    tets_ = view.tets;
+    vertex_count_ = view.vertex_count;
+    if (!(desc.flags & VOX_MESH_BORROW_TETS)) own_tets();
     if ((desc.flags & VOX_MESH_COPY_POSITIONS) && has_positions()) {
         check_format_once(VOX_NULL_BODY);
         map_positions();
     }
     if (desc.rest_positions.data)
-        self_filter_.make(memory).rest = rest_pose(
+        self_filter_.rest = rest_pose(
             check_positions_of(vertex_count_, desc.rest_positions, "rest_positions"), vertex_count_);
     set_filter(filter);
 }
 
-// For changes: what the mesh shares it lets go of, and keeps a copy of the tets unless they are borrowed.
-PreparedTets& Mesh::own_prepared() {
-    if (prepared_ && !is_shared_) return *prepared_;
-    auto made =
-        std::allocate_shared<PreparedTets>(std::pmr::polymorphic_allocator<PreparedTets>(memory()), memory());
-    if (!is_shared_) return *(prepared_ = std::move(made));
-    const bool borrows = borrows_tets();
-    if (!borrows) {
-        made->tets.assign(tets_.begin(), tets_.end());
-        tets_ = made->tets;
-    }
-    prepared_ = std::move(made);
-    owns_tets_ = !borrows;
-    is_shared_ = has_tiles_ = false;
-    if (has_topology_) ++topology_version_;
-    has_topology_ = false;
-    return *prepared_;
-}
-
-// For changes: a copy of those that are borrowed or shared.
+// For changes: a copy of those that are borrowed.
 Array<Tet>& Mesh::own_tets() {
-    PreparedTets& own = own_prepared();
-    if (owns_tets_) return own.tets;
-    own.tets.assign(tets_.begin(), tets_.end());
-    tets_ = own.tets;
-    owns_tets_ = true;
-    return own.tets;
-}
-
-void Mesh::share(SharedTets& shared) {
-    std::shared_ptr<PreparedTets> of_all = shared.find_or_add(tets_, vertex_count_);
-    if (owns_tets_) tets_ = of_all->tets;
-    prepared_ = std::move(of_all);
-    owns_tets_ = false;
-    is_shared_ = true;
+    if (borrows_tets()) {
+        prepared_.tets.assign(tets_.begin(), tets_.end());
+        tets_ = prepared_.tets;
+    }
+    return prepared_.tets;
 }
 
 void Mesh::make_tiles() {
     if (has_tiles_) return;
-    if (vertex_count_ > 0) {
-        PreparedTets& made = is_shared_ ? *prepared_ : own_prepared();
-        if (!is_shared_ || !made.has_tiles)
-            make_tiled_mesh(body(VOX_NULL_BODY), made.tiled, has_topology_ ? &made.topology : nullptr);
-        made.has_tiles = true;
-    }
+    if (vertex_count_ > 0)
+        make_tiled_mesh(body(VOX_NULL_BODY), prepared_.tiled, has_topology_ ? &prepared_.topology : nullptr);
     has_tiles_ = true;
     ++tiles_version_;
 }
 
 void Mesh::make_topology() {
     if (has_topology_) return;
-    if (!tets_.empty()) {
-        PreparedTets& made = is_shared_ ? *prepared_ : own_prepared();
-        if (!is_shared_ || !made.has_topology) vox::make_topology(tets(), vertex_count_, made.topology);
-        made.has_topology = true;
-    }
+    if (!tets_.empty()) vox::make_topology(tets(), vertex_count_, prepared_.topology);
     has_topology_ = true;
     ++topology_version_;
 }
 
-const Topology& Mesh::topology() const noexcept {
-    static const Topology none(std::pmr::null_memory_resource());
-    return has_topology_ && prepared_ ? prepared_->topology : none;
-}
-
-const TiledMesh& Mesh::tiled() const noexcept {
-    static const TiledMesh none(std::pmr::null_memory_resource());
-    return has_tiles_ && prepared_ ? prepared_->tiled : none;
-}
-
 void Mesh::drop_topology() noexcept {
-    if (prepared_ && !is_shared_) prepared_->topology = Topology(memory());
+    prepared_.topology = Topology(memory());
     has_topology_ = false;
     ++topology_version_;
 }
@@ -112,7 +69,7 @@ const MeshSample& Mesh::sample() const {
 void Mesh::make_rings() {
     if (has_rings_) return;
     if (filter_.self_rings != 0)
-        self_filter_.make(memory()).rings = Rings(tets(), vertex_count_, filter_.self_rings, memory());
+        self_filter_.rings = Rings(tets(), vertex_count_, filter_.self_rings, memory());
     has_rings_ = true;
 }
 
@@ -149,8 +106,8 @@ void* Mesh::map_positions() {
     return owned_.data();
 }
 
-void Mesh::set_transform(const double* matrix) {
-    if (matrix) std::copy_n(matrix, 12, transform_.make(memory()).rows.begin());
+void Mesh::set_transform(const double* matrix) noexcept {
+    if (matrix) std::copy_n(matrix, 12, transform_.begin());
     has_transform_ = matrix != nullptr;
 }
 
@@ -159,14 +116,14 @@ vox_body_info Mesh::info() const noexcept {
     info.struct_size = sizeof info;
     info.user_data = user_data_;
     info.tet_count = tet_count();
-    info.enabled_tet_count = tet_count() - edits_->off.count();
+    info.enabled_tet_count = tet_count() - edits_.off.count();
     info.enabled = enabled_ ? 1 : 0;
     if (owns_positions_) info.flags |= VOX_MESH_COPY_POSITIONS;
     if (borrows_tets()) info.flags |= VOX_MESH_BORROW_TETS;
     info.positions = as_given(positions_, vertex_count_);
     if (!positions_.data) info.positions.byte_stride = info.positions.component_byte_stride = 0;
     for (const std::size_t i : {0u, 5u, 10u}) info.transform[i] = 1;
-    if (has_transform_) std::copy(transform_->rows.begin(), transform_->rows.end(), info.transform);
+    if (has_transform_) std::ranges::copy(transform_, info.transform);
     info.filter = filter_;
     return info;
 }
@@ -179,44 +136,39 @@ Body Mesh::body(vox_body id) const noexcept {
             .self_collision = collides_with_itself(filter_),
             .sensor = is_sensor(filter_),
             .filter = {filter_.category, filter_.mask, filter_.group, filter_.world},
-            .exceptions = exceptions_->meshes,
+            .exceptions = exceptions_,
             .self_filter =
-                filter_.self_rings != 0 || filter_.self_rest_distance > 0 ? &*self_filter_ : nullptr,
-            .off = edits_->off.words(),
-            .off_count = edits_->off.count(),
-            .removed_vertices = edits_->removed_vertices.words(),
+                filter_.self_rings != 0 || filter_.self_rest_distance > 0 ? &self_filter_ : nullptr,
+            .off = edits_.off.words(),
+            .off_count = edits_.off.count(),
+            .removed_vertices = edits_.removed_vertices.words(),
             .slot = id == VOX_NULL_BODY ? Body::no_slot : slot_of(id),
             .user_data = user_data_};
 }
 
 void Mesh::set_filter(const vox_filter& filter) {
     RestPose rest(memory());
-    if (filter.self_rest_distance > 0 && self_filter_->rest.empty() && vertex_count_ > 0) {
+    if (filter.self_rest_distance > 0 && self_filter_.rest.empty() && vertex_count_ > 0) {
         if (!has_positions())
             throw Error(VOX_ERROR_INVALID_STATE,
                         "self_rest_distance needs a rest pose: the mesh has no positions "
                         "yet and was inserted without rest_positions");
         rest = rest_pose(body(VOX_NULL_BODY).positions, vertex_count_); // as they collide
     }
-    if (filter.self_rings != 0 || filter.self_rest_distance > 0) self_filter_.make(memory());
     Rings rings(memory());
     const bool other_rings = !has_rings_ || filter.self_rings != filter_.self_rings;
     if (other_rings) rings = Rings(tets(), vertex_count_, filter.self_rings, memory());
     // More is prepared of bodies with self-collision.
     const bool first_self = collides_with_itself(filter) && !collides_with_itself(filter_);
-    if (first_self && is_shared_) own_prepared();
     if (has_tiles_ && first_self) {
         Body with_self = body(VOX_NULL_BODY);
         with_self.self_collision = true;
-        PreparedTets& own = own_prepared();
-        make_tiled_mesh(with_self, own.tiled, has_topology_ ? &own.topology : nullptr);
+        make_tiled_mesh(with_self, prepared_.tiled, has_topology_ ? &prepared_.topology : nullptr);
         ++tiles_version_;
     }
-    if (SelfFilter* own = self_filter_.if_made()) {
-        if (!rest.empty()) own->rest = std::move(rest);
-        if (other_rings) own->rings = std::move(rings);
-        own->rest_distance = filter.self_rest_distance;
-    }
+    if (!rest.empty()) self_filter_.rest = std::move(rest);
+    if (other_rings) self_filter_.rings = std::move(rings);
+    self_filter_.rest_distance = filter.self_rest_distance;
     has_rings_ = true;
     filter_ = filter;
 }
@@ -228,18 +180,12 @@ RestPose Mesh::rest_pose(const Positions& positions, std::uint32_t count) const 
 }
 
 void Mesh::reserve_exception() {
-    Array<vox_body>& meshes = exceptions_.make(memory()).meshes;
-    if (meshes.size() == meshes.capacity()) meshes.reserve(2 * meshes.size() + 2);
+    if (exceptions_.size() == exceptions_.capacity()) exceptions_.reserve(2 * exceptions_.size() + 2);
 }
 
 void Mesh::add_exception(vox_body other) noexcept {
-    Array<vox_body>& meshes = exceptions_.if_made()->meshes;
-    const auto place = std::lower_bound(meshes.begin(), meshes.end(), other);
-    if (place == meshes.end() || *place != other) meshes.insert(place, other);
-}
-
-void Mesh::remove_exception(vox_body other) noexcept {
-    if (Exceptions* made = exceptions_.if_made()) erase(made->meshes, other);
+    const auto place = std::lower_bound(exceptions_.begin(), exceptions_.end(), other);
+    if (place == exceptions_.end() || *place != other) exceptions_.insert(place, other);
 }
 
 } // namespace vox

@@ -9,13 +9,13 @@
 #include "mesh/filter.hpp"
 #include "mesh/sample.hpp"
 #include "mesh/tiled_mesh.hpp"
+#include "mesh/topology.hpp"
 
 #include <vox/vox.h>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <memory_resource>
 #include <span>
 
@@ -36,7 +36,9 @@ struct MeshEdits {
 class Mesh {
 public:
     // An empty slot's mesh.
-    explicit Mesh(std::pmr::memory_resource* memory) noexcept : owned_(memory), filter_(checked_filter({})) {}
+    explicit Mesh(std::pmr::memory_resource* memory) noexcept
+        : prepared_(memory), edits_(memory), owned_(memory), self_filter_(memory), exceptions_(memory),
+          filter_(checked_filter({})) {}
     // Of a checked desc, whose arrays it copies or borrows as the flags say. `view` is what check_mesh() made
     // of it; `filter` is used in place of desc.filter.
     Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter,
@@ -45,20 +47,9 @@ public:
     Mesh(Mesh&&) noexcept = default;
     Mesh& operator=(Mesh&&) noexcept = default;
 
-    // Whether what is prepared of it can be shared with other meshes; once it is, it can not.
-    bool may_share() const noexcept {
-        return vertex_count_ <= SharedTets::most_vertices && tets_.size() <= SharedTets::most_tets &&
-               !tets_.empty() && !has_tiles_ && !has_topology_ && !is_shared_ &&
-               !collides_with_itself(filter_) && edits_->off.count() == 0;
-    }
-    // Takes it from `shared` until the next edit. Throws what the memory throws, and changes nothing then.
-    void share(SharedTets& shared);
-
-    bool is_shared() const noexcept { return is_shared_; }
-
     // Makes the topology, unless that is done.
     void make_topology();
-    const Topology& topology() const noexcept;
+    const Topology& topology() const noexcept { return prepared_.topology; }
     bool has_topology() const noexcept { return has_topology_; }
     // Grows when the topology is made, changed or dropped.
     std::uint32_t topology_version() const noexcept { return topology_version_; }
@@ -70,7 +61,7 @@ public:
 
     // Makes the tiles, unless that is done; needs positions.
     void make_tiles();
-    const TiledMesh& tiled() const noexcept;
+    const TiledMesh& tiled() const noexcept { return prepared_.tiled; }
     // Grows when the tiles are made anew; at least 1 once they are made.
     std::uint32_t tiles_version() const noexcept { return tiles_version_; }
     // Null before they are made.
@@ -114,13 +105,13 @@ public:
     // Positions with the transform; null before they are bound.
     Positions positions() const noexcept {
         Positions positions = positions_;
-        if (has_transform_) positions.transform = transform_->rows.data();
+        if (has_transform_) positions.transform = transform_.data();
         return positions;
     }
     std::size_t position_size() const noexcept { return positions_.doubles ? sizeof(Vec3d) : sizeof(Vec3f); }
 
-    // Three rows of four finite numbers; null: no transform. Throws what the memory throws.
-    void set_transform(const double* matrix);
+    // Three rows of four finite numbers; null: no transform.
+    void set_transform(const double* matrix) noexcept;
 
     bool has_positions() const noexcept { return vertex_count_ == 0 || positions_.data != nullptr; }
     std::uint32_t vertex_count() const noexcept { return vertex_count_; }
@@ -130,9 +121,9 @@ public:
 
     // Corners as given by the caller, also of a tet that is off.
     const Tet& given(std::uint32_t tet) const noexcept {
-        return edits_->given.empty() ? tets_[tet] : edits_->given[tet];
+        return edits_.given.empty() ? tets_[tet] : edits_.given[tet];
     }
-    bool is_off(std::uint32_t tet) const noexcept { return edits_->off[tet]; }
+    bool is_off(std::uint32_t tet) const noexcept { return edits_.off[tet]; }
 
     // Sets a checked filter. Where that needs a rest pose and there is none, it is copied from the positions.
     // Throws Error(INVALID_STATE or NON_FINITE) or what the memory throws, and changes nothing then.
@@ -146,8 +137,8 @@ public:
     // fail.
     void reserve_exception();
     void add_exception(vox_body other) noexcept;
-    void remove_exception(vox_body other) noexcept;
-    std::span<const vox_body> exceptions() const noexcept { return exceptions_->meshes; }
+    void remove_exception(vox_body other) noexcept { erase(exceptions_, other); }
+    std::span<const vox_body> exceptions() const noexcept { return exceptions_; }
 
     Body body(vox_body id) const noexcept;
 
@@ -166,13 +157,10 @@ private:
     // Edits.
     std::pmr::memory_resource* memory() const noexcept { return owned_.memory(); }
     std::span<const Tet> tets() const noexcept { return tets_; }
-    bool borrows_tets() const noexcept {
-        return !tets_.empty() && !(prepared_ && prepared_->tets.data() == tets_.data());
-    }
+    bool borrows_tets() const noexcept { return !tets_.empty() && prepared_.tets.data() != tets_.data(); }
     void check_tets(std::span<const std::uint32_t> tets) const;
     void check_corners(std::uint32_t tet, const Tet& corners) const;
     void switch_off(std::uint32_t tet, Array<TetChange>& changes) noexcept;
-    PreparedTets& own_prepared();
     Array<Tet>& own_tets();
     MeshEdits& reserve_off();
     MeshEdits& list_tets_of();
@@ -181,33 +169,32 @@ private:
     void invalidate_tiles() noexcept;
     void invalidate_prepared() noexcept;
 
-    struct Transform {
-        explicit Transform(std::pmr::memory_resource*) noexcept {}
-        std::array<double, 12> rows{};
-    };
-    struct Exceptions {
-        explicit Exceptions(std::pmr::memory_resource* memory) noexcept : meshes(memory) {}
-        Array<vox_body> meshes;
+    // What is prepared of the tetrahedra while they stay as they are.
+    struct PreparedTets {
+        explicit PreparedTets(std::pmr::memory_resource* memory) noexcept
+            : tets(memory), topology(memory), tiled(memory) {}
+
+        Array<Tet> tets; // empty where those of the caller are borrowed
+        Topology topology;
+        TiledMesh tiled;
     };
 
-    std::shared_ptr<PreparedTets> prepared_; // null while there is nothing to keep in it
-    Rare<MeshEdits> edits_;
+    PreparedTets prepared_;
+    MeshEdits edits_;
     Array<double> owned_; // positions, packed in their format, unless they are borrowed
     Lazy<MeshSample> sample_;
-    Rare<SelfFilter> self_filter_;
-    Rare<Exceptions> exceptions_;
+    SelfFilter self_filter_;
+    Array<vox_body> exceptions_;
     vox_filter filter_;
     std::uint64_t user_data_ = 0;
     // From here on what each step looks at.
-    Rare<Transform> transform_;
+    std::array<double, 12> transform_{};
     Positions positions_; // without the transform
     // As the stages see them: those that are off name one vertex four times. The caller's, or in prepared_.
     std::span<const Tet> tets_;
     std::uint32_t vertex_count_ = 0;
     std::uint32_t tiles_version_ = 0;
     std::uint32_t topology_version_ = 0;
-    bool owns_tets_ = false;      // they are in prepared_, and it is this mesh's alone
-    bool is_shared_ = false;      // prepared_ is other meshes' as well: it must not be changed
     bool owns_positions_ = false; // may be true while there are no vertices yet
     bool has_topology_ = false, has_tiles_ = false, has_rings_ = false;
     bool has_transform_ = false;
