@@ -52,16 +52,14 @@ private:
     std::size_t count_ = 0;
 };
 
-// The place of a cell on a Z-shaped curve through 2^21 cells an axis, or 2^10 with codes of 32 bits (G. M.
-// Morton, "A computer oriented geodetic data base", 1966).
-template <class Code>
-Code morton_code(Code x, Code y, Code z) noexcept {
-    const auto to_every_third_bit = [](Code i) {
-        if constexpr (sizeof(Code) == 8) i = (i | i << 32) & 0x1f00000000ffffu;
-        i = (i | i << 16) & static_cast<Code>(0x1f0000ff0000ffu);
-        i = (i | i << 8) & static_cast<Code>(0x100f00f00f00f00fu);
-        i = (i | i << 4) & static_cast<Code>(0x10c30c30c30c30c3u);
-        return (i | i << 2) & static_cast<Code>(0x1249249249249249u);
+// The place of a cell on a Z-shaped curve through 2^10 cells an axis (G. M. Morton, "A computer oriented
+// geodetic data base", 1966).
+inline std::uint32_t morton_code(std::uint32_t x, std::uint32_t y, std::uint32_t z) noexcept {
+    const auto to_every_third_bit = [](std::uint32_t i) {
+        i = (i | i << 16) & 0x030000ffu;
+        i = (i | i << 8) & 0x0300f00fu;
+        i = (i | i << 4) & 0x030c30c3u;
+        return (i | i << 2) & 0x09249249u;
     };
     return to_every_third_bit(x) | to_every_third_bit(y) << 1 | to_every_third_bit(z) << 2;
 }

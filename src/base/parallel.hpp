@@ -75,6 +75,15 @@ private:
     std::unique_ptr<Scheduler> scheduler_;
 };
 
+// Workers::for_ranges(); without workers all at once.
+template <class Function>
+void for_ranges(Workers* workers, std::size_t items, std::size_t min_range, Function&& function) {
+    if (workers)
+        workers->for_ranges(items, min_range, function);
+    else
+        function(std::size_t{0}, items, std::uint32_t{0});
+}
+
 // Throws INVALID_ARGUMENT when the two fields do not fit each other.
 void check_workers(const vox_task_system& tasks, std::uint32_t worker_count);
 

@@ -42,9 +42,11 @@ struct Positions {
     bool rounded() const noexcept { return doubles || transform; }
 
     Vec3d exact(std::size_t vertex) const noexcept {
-        const Vec3d p = doubles ? read<Vec3d, double>(vertex) : Vec3d(read<Vec3f, float>(vertex));
-        return transform ? transformed(transform, p) : p;
+        return rounded() ? exact_of_rounded(vertex) : floats(vertex);
     }
+
+    // For a vertex that is looked at soon.
+    const std::byte* place_of(std::size_t vertex) const noexcept { return data + vertex * byte_stride; }
 
     // Only for positions that are not rounded().
     Vec3f floats(std::size_t vertex) const noexcept { return read<Vec3f, float>(vertex); }
@@ -72,6 +74,11 @@ struct Positions {
     }
 
 private:
+    Vec3d exact_of_rounded(std::size_t vertex) const noexcept {
+        const Vec3d p = doubles ? read<Vec3d, double>(vertex) : Vec3d(floats(vertex));
+        return transform ? transformed(transform, p) : p;
+    }
+
     // Three copies: a point copied as a whole would go through memory.
     template <class Point, class Number>
     Point read(std::size_t vertex) const noexcept {

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace vox::depth {
 
@@ -56,32 +55,57 @@ private:
     double scale_, slack_;
 };
 
-// Receives the triangles near a point, and keeps the closest.
-class SurfaceTree::NearestOne {
+// Receives the triangles near a point.
+class SurfaceTree::Receiver {
+protected:
+    Receiver(const SurfaceTree& tree, const Vec3d& p, std::uint32_t left_out, std::uint32_t part,
+             SearchState& state)
+        : tree_(tree), query_(tree, p), p_(p), left_out_(left_out), part_(part), state_(state) {}
+
+    // The closest point of a triangle; false where it is left out.
+    bool look_at(std::uint32_t triangle, Closest& found) {
+        const Triangle& corners = tree_.solid_.topology->triangles[triangle];
+        if (has_corner(corners, left_out_) || !tree_.is_in(part_, corners)) return false;
+        ++state_.visited;
+        found = closest_point(tree_.solid_, triangle, p_);
+        return true;
+    }
+    // As VisitTriangle, for a receiver with take() and reach().
+    template <class Kind>
+    static float visit(void* self, std::uint32_t triangle) {
+        static_cast<Kind*>(self)->take(triangle);
+        return static_cast<Kind*>(self)->reach();
+    }
+
+    const SurfaceTree& tree_;
+    const Query query_;
+    const Vec3d p_;
+    const std::uint32_t left_out_, part_;
+    SearchState& state_;
+};
+
+// Keeps the closest.
+class SurfaceTree::NearestOne : Receiver {
 public:
     NearestOne(const SurfaceTree& tree, const Vec3d& p, std::uint32_t left_out, std::uint32_t part,
                SearchState& state, Closest& out)
-        : tree_(tree), query_(tree, p), p_(p), left_out_(left_out), part_(part), state_(state), out_(out) {}
+        : Receiver(tree, p, left_out, part, state), out_(out) {}
 
     bool run() {
-        if (state_.near != SearchState::none) look_at(state_.near);
-        const auto visit = [](void* self, std::uint32_t triangle) {
-            auto& nearest = *static_cast<NearestOne*>(self);
-            nearest.look_at(triangle);
-            return nearest.reach_;
-        };
-        find_near(tree_.view_, part_, query_.point(), reach_, visit, this);
+        if (state_.near != SearchState::none) take(state_.near);
+        find_near(tree_.view_, part_, query_.point(), reach_, visit<NearestOne>, this);
         if (found_) state_.near = out_.at.triangle;
         return found_;
     }
 
 private:
-    void look_at(std::uint32_t triangle) {
-        const Triangle& corners = tree_.solid_.topology->triangles[triangle];
-        if (has_corner(corners, left_out_) || !tree_.is_in(part_, corners)) return;
+    friend Receiver;
+
+    float reach() const { return reach_; }
+    void take(std::uint32_t triangle) {
         if (found_ && triangle == out_.at.triangle) return;
-        ++state_.visited;
-        const Closest candidate = closest_point(tree_.solid_, triangle, p_);
+        Closest candidate;
+        if (!look_at(triangle, candidate)) return;
         if (found_ && (candidate.squared > out_.squared ||
                        (candidate.squared == out_.squared &&
                         !tree_.solid_.topology->before(candidate.at.triangle, out_.at.triangle))))
@@ -91,11 +115,6 @@ private:
         reach_ = query_.reach(candidate.squared);
     }
 
-    const SurfaceTree& tree_;
-    const Query query_;
-    const Vec3d p_;
-    const std::uint32_t left_out_, part_;
-    SearchState& state_;
     Closest& out_;
     float reach_ = std::numeric_limits<float>::infinity();
     bool found_ = false;
@@ -210,21 +229,16 @@ private:
     std::size_t size_ = 0;
 };
 
-// Receives the triangles near a vertex that is in a fold, and keeps the nearest places.
-class SurfaceTree::NearestPlaces {
+// For a vertex that is in a fold: keeps the nearest places.
+class SurfaceTree::NearestPlaces : Receiver {
 public:
     NearestPlaces(const SurfaceTree& tree, const Line& line, std::uint32_t part, SearchState& state)
-        : tree_(tree), query_(tree, line.p), line_(line), part_(part), state_(state),
-          places_(*tree.solid_.topology) {}
+        : Receiver(tree, line.p, line.vertex, part, state), line_(line), places_(*tree.solid_.topology) {}
 
     // Returns whether a straight line reaches one of them, not the first, which was tried before.
     bool run(Closest& out) {
-        const auto visit = [](void* self, std::uint32_t triangle) {
-            auto& nearest = *static_cast<NearestPlaces*>(self);
-            nearest.look_at(triangle);
-            return nearest.query_.reach(nearest.places_.squared());
-        };
-        find_nearest_first(tree_.view_, part_, query_.point(), query_.reach(infinity), visit, this);
+        find_nearest_first(tree_.view_, part_, query_.point(), query_.reach(infinity), visit<NearestPlaces>,
+                           this);
         for (const FoundPlace* next = places_.begin() + 1; next < places_.end(); ++next) {
             const Vec3d way = way_to(tree_.solid_, next->place, line_.p, next->found);
             if (!tree_.reaches(line_, way)) continue;
@@ -237,58 +251,49 @@ public:
     bool has(const Place& place) const { return places_.has(place); }
 
 private:
-    void look_at(std::uint32_t triangle) {
-        const Triangle& corners = tree_.solid_.topology->triangles[triangle];
-        if (has_corner(corners, line_.vertex) || !tree_.is_in(part_, corners)) return;
-        ++state_.visited;
-        const Closest found = closest_point(tree_.solid_, triangle, line_.p);
-        if (places_.wants(found)) places_.add(Place(*tree_.solid_.topology, found.at), found);
+    friend Receiver;
+
+    float reach() const { return query_.reach(places_.squared()); }
+    void take(std::uint32_t triangle) {
+        Closest found;
+        if (look_at(triangle, found) && places_.wants(found))
+            places_.add(Place(*tree_.solid_.topology, found.at), found);
     }
 
-    const SurfaceTree& tree_;
-    const Query query_;
     const Line line_;
-    const std::uint32_t part_;
-    SearchState& state_;
     Nearest<4> places_;
 };
 
-// Receives the triangles near a vertex that is in a fold, and tries the nearest places where the distance has
-// a local minimum.
-class SurfaceTree::NearestMinima {
+// For a vertex that is in a fold: tries the nearest places where the distance has a local minimum.
+class SurfaceTree::NearestMinima : Receiver {
 public:
     // Those in `tried` are known not to be reached. None is tried at a greater squared distance than
     // `squared_exit`.
     NearestMinima(const SurfaceTree& tree, const Line& line, std::uint32_t part, const NearestPlaces& tried,
                   double squared_exit, SearchState& state)
-        : tree_(tree), query_(tree, line.p), line_(line), part_(part), tried_(tried),
-          squared_exit_(squared_exit), state_(state), minima_(*tree.solid_.topology) {}
+        : Receiver(tree, line.p, line.vertex, part, state), line_(line), tried_(tried),
+          squared_exit_(squared_exit), minima_(*tree.solid_.topology) {}
 
     // Returns whether a straight line reaches one of them.
     bool run(Closest& out) {
-        const auto visit = [](void* self, std::uint32_t triangle) {
-            auto& nearest = *static_cast<NearestMinima*>(self);
-            nearest.look_at(triangle);
-            return nearest.reach();
-        };
-        find_nearest_first(tree_.view_, part_, query_.point(), reach(), visit, this);
+        find_nearest_first(tree_.view_, part_, query_.point(), reach(), visit<NearestMinima>, this);
         if (!is_reached_ || !minima_.has(reached_.place)) return false;
         out = reached_.found;
         return true;
     }
 
 private:
+    friend Receiver;
+
     float reach() const {
         const double squared = std::min(squared_exit_, minima_.squared());
         return query_.reach(is_reached_ ? std::min(squared, reached_.found.squared) : squared);
     }
 
     // Each is tried at once, since one that is reached makes the search short.
-    void look_at(std::uint32_t triangle) {
-        const Triangle& corners = tree_.solid_.topology->triangles[triangle];
-        if (has_corner(corners, line_.vertex) || !tree_.is_in(part_, corners)) return;
-        ++state_.visited;
-        const Closest found = closest_point(tree_.solid_, triangle, line_.p);
+    void take(std::uint32_t triangle) {
+        Closest found;
+        if (!look_at(triangle, found)) return;
         if (found.squared > squared_exit_ || !minima_.wants(found)) return;
         if (is_reached_ && !minima_.before(found, reached_.found)) return;
         const Place place(*tree_.solid_.topology, found.at);
@@ -304,13 +309,9 @@ private:
         reached_ = {place, found};
     }
 
-    const SurfaceTree& tree_;
-    const Query query_;
     const Line line_;
-    const std::uint32_t part_;
     const NearestPlaces& tried_;
     const double squared_exit_;
-    SearchState& state_;
     Nearest<8> minima_;
     FoundPlace reached_;
     bool is_reached_ = false;

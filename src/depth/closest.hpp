@@ -6,6 +6,7 @@
 #include "depth/walk.hpp"
 
 #include <algorithm>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -83,9 +84,12 @@ public:
 
 private:
     struct Key {
-        std::uint32_t code, triangle;
+        std::uint32_t part, code, triangle;
+
+        auto operator<=>(const Key&) const = default;
     };
     class Query;
+    class Receiver;
     class NearestOne;
     class NearestPlaces;
     class NearestMinima;

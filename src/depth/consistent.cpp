@@ -6,10 +6,9 @@
 #include "base/prefetch.hpp"
 #include "base/vectors.hpp"
 #include "depth/closest.hpp"
-#include "depth/walks.hpp"
+#include "depth/walk.hpp"
 #include "exact/predicates.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -138,7 +137,8 @@ private:
         flush();
     }
 
-    void prefetch_links(std::size_t next) const;
+    template <class Vertex>
+    void prefetch_links(std::size_t next, std::size_t count, Vertex&& vertex) const;
     void prefetch_queued(std::size_t next) const;
     void find_border();
     bool is_coincident(std::uint32_t place, std::uint32_t tet);
@@ -181,34 +181,32 @@ private:
     } border_;
 };
 
-// Of points that follow: far enough ahead to hide the latency of memory.
-void Stages::prefetch_links(std::size_t next) const {
-    constexpr std::size_t places_ahead = 16, records_ahead = 8;
+// What the point that comes so much later reads is prefetched, and twice and three times as early what leads
+// there: bench/README.md has what that gains.
+constexpr std::size_t ahead = 8;
+
+// Of the points that vertex(i) names for i below `count`, those that follow `next`.
+template <class Vertex>
+void Stages::prefetch_links(std::size_t next, std::size_t count, Vertex&& vertex) const {
     const VertexLinks& links = pair_.topology_a->links;
-    if (links.empty()) return;
-    const std::span<const std::uint32_t> places = pair_.places;
-    if (next + places_ahead < places.size()) prefetch(links.place_of(vertex_at(places[next + places_ahead])));
-    if (next + records_ahead < places.size())
-        prefetch(links.record_of(vertex_at(places[next + records_ahead])));
+    if (next + 2 * ahead < count) prefetch(links.place_of(vertex(next + 2 * ahead)));
+    if (next + ahead < count) prefetch(links.record_of(vertex(next + ahead)));
 }
 
-// The same for points in the queue.
 void Stages::prefetch_queued(std::size_t next) const {
-    constexpr std::size_t points_ahead = 12, places_ahead = 8, records_ahead = 4;
-    const VertexLinks& links = pair_.topology_a->links;
-    if (next + points_ahead < queued_) {
-        const std::uint32_t place = waves_[queue_[next + points_ahead]].place;
+    if (next + 3 * ahead < queued_) {
+        const std::uint32_t place = waves_[queue_[next + 3 * ahead]].place;
         prefetch(&penetrations_.of(place));
         prefetch(&penetrations_.depth_of(place));
     }
-    if (next + places_ahead < queued_) prefetch(links.place_of(queue_[next + places_ahead]));
-    if (next + records_ahead < queued_) prefetch(links.record_of(queue_[next + records_ahead]));
+    prefetch_links(next, queued_, [&](std::size_t i) { return queue_[i]; });
 }
 
 // The first wave is made of the points with an edge that leads out.
 void Stages::find_border() {
     for (std::size_t i = 0; i < pair_.places.size(); ++i) {
-        prefetch_links(i);
+        if (!pair_.topology_a->links.empty())
+            prefetch_links(i, pair_.places.size(), [&](std::size_t k) { return vertex_at(pair_.places[k]); });
         const std::uint32_t place = pair_.places[i], vertex = vertex_at(place);
         const Hit hit = hits_[penetrations_.of(place).contact];
         const bool coincident = !hit.interior && is_coincident(place, hit.tet);

@@ -45,10 +45,7 @@ Fallback::Searched Fallback::find(const Scene& scene, std::uint64_t budget, Work
         for (std::size_t i = begin; i < end; ++i) search(scene, i, workers_[worker]);
     };
     constexpr std::size_t least = 8; // chunks that are worth a task
-    if (workers)
-        workers->for_ranges(chunks_.size(), least, run);
-    else
-        run(0, chunks_.size(), 0);
+    for_ranges(workers, chunks_.size(), least, run);
     workers_.level();
     for (const Worker& worker : workers_) counts.closest_tests += worker.counts.closest_tests;
     return {items_.size(), unknown};
@@ -118,10 +115,7 @@ void Fallback::update_trees(const Scene& scene, Workers* workers) {
         for (std::size_t i = begin; i < end; ++i)
             if (!is_large(used_[i])) update(used_[i], nullptr);
     };
-    if (workers && used_.size() > (shares ? large : 0) + 1)
-        workers->for_ranges(used_.size(), 1, run);
-    else
-        run(0, used_.size(), 0);
+    for_ranges(used_.size() > (shares ? large : 0) + 1 ? workers : nullptr, used_.size(), 1, run);
 }
 
 void Fallback::sort_items(const Scene& scene) {

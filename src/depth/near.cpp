@@ -110,12 +110,12 @@ HWY_INLINE unsigned BoundChildren(const TreeNode& node, const V3& p, float reach
     const D d;
     const V zero = hn::Zero(d), squared_reach = hn::Set(d, reach * reach);
     const V infinite = hn::Set(d, std::numeric_limits<float>::infinity());
+    const V at[3] = {p.x, p.y, p.z};
     unsigned near = 0;
     for (std::size_t lane = 0; lane < tree_width; lane += hn::Lanes(d)) {
         const auto beyond = [&](std::size_t k) HWY_ATTR {
-            const V at = Dot3(Load3(node.axis[k], lane), p);
-            return hn::Max(zero, hn::Max(hn::Sub(hn::Load(d, node.low[k] + lane), at),
-                                         hn::Sub(at, hn::Load(d, node.high[k] + lane))));
+            return hn::Max(zero, hn::Max(hn::Sub(hn::Load(d, node.low[k] + lane), at[k]),
+                                         hn::Sub(at[k], hn::Load(d, node.high[k] + lane))));
         };
         const V3 out = {beyond(0), beyond(1), beyond(2)};
         const V bound = Dot3(out, out);
@@ -253,100 +253,39 @@ void FindNearestFirst(const TreeView& tree, std::uint32_t part, const float* poi
 HWY_INLINE float Least(V v) { return hn::GetLane(hn::MinOfLanes(D(), v)); }
 HWY_INLINE float Most(V v) { return hn::GetLane(hn::MaxOfLanes(D(), v)); }
 
-HWY_INLINE float Root(float x) { return hn::GetLane(hn::Sqrt(hn::Set(hn::CappedTag<float, 1>(), x))); }
-
-// The sum of vectors that may each be turned round, made a unit vector.
-struct Direction {
-    float of[3] = {0, 0, 0};
-
-    HWY_INLINE void Add(float x, float y, float z) {
-        const float s = of[0] * x + of[1] * y + of[2] * z < 0 ? -1.0f : 1.0f;
-        of[0] += s * x;
-        of[1] += s * y;
-        of[2] += s * z;
-    }
-    HWY_INLINE void Normalise() {
-        const float squared = of[0] * of[0] + of[1] * of[1] + of[2] * of[2];
-        const float scale = squared > 1e-30f ? 1 / Root(squared) : 0; // false for NaN, too
-        for (float& x : of) x = scale > 0 ? x * scale : 0;
-    }
-};
-
-// The mean normal of a leaf, by area.
-HWY_INLINE Direction NormalOfLeaf(const TreeLeaf& leaf) {
-    const D d;
-    alignas(32) float n[3][tree_width];
-    for (std::size_t lane = 0; lane < tree_width; lane += hn::Lanes(d)) {
-        const V3 ab = Load3(leaf.ab, lane), ac = Load3(leaf.ac, lane);
-        hn::Store(Difference(ab.y, ac.z, ab.z, ac.y), d, n[0] + lane);
-        hn::Store(Difference(ab.z, ac.x, ab.x, ac.z), d, n[1] + lane);
-        hn::Store(Difference(ab.x, ac.y, ab.y, ac.x), d, n[2] + lane);
-    }
-    Direction sum;
-    for (std::size_t i = 0; i < tree_width; ++i) sum.Add(n[0][i], n[1][i], n[2][i]);
-    sum.Normalise();
-    return sum;
-}
-
-// Makes a child of a node have these axes and the box around some leaves.
-HWY_INLINE void BoxOfLeaves(const TreeLeaf* leaves, std::size_t count, const float (&axes)[3][3],
-                            TreeNode& node, std::size_t child) {
+// Makes a child of a node have the box of a leaf.
+HWY_INLINE void BoxOfLeaf(const TreeLeaf& leaf, TreeNode& node, std::size_t child) {
     const D d;
     for (std::size_t k = 0; k < 3; ++k) {
-        const V3 axis = Set3(axes[k]);
         V low = hn::Set(d, std::numeric_limits<float>::infinity()), high = hn::Neg(low);
-        for (std::size_t i = 0; i < count; ++i)
-            for (std::size_t lane = 0; lane < tree_width; lane += hn::Lanes(d)) {
-                const V a = Dot3(axis, Load3(leaves[i].a, lane));
-                const V b = hn::Add(a, Dot3(axis, Load3(leaves[i].ab, lane)));
-                const V c = hn::Add(a, Dot3(axis, Load3(leaves[i].ac, lane)));
-                low = hn::Min(low, hn::Min(a, hn::Min(b, c)));
-                high = hn::Max(high, hn::Max(a, hn::Max(b, c)));
-            }
-        for (std::size_t i = 0; i < 3; ++i) node.axis[k][i][child] = axes[k][i];
+        for (std::size_t lane = 0; lane < tree_width; lane += hn::Lanes(d)) {
+            const V a = hn::Load(d, leaf.a[k] + lane), b = hn::Add(a, hn::Load(d, leaf.ab[k] + lane)),
+                    c = hn::Add(a, hn::Load(d, leaf.ac[k] + lane));
+            low = hn::Min(low, hn::Min(a, hn::Min(b, c)));
+            high = hn::Max(high, hn::Max(a, hn::Max(b, c)));
+        }
         node.low[k][child] = Least(low);
         node.high[k][child] = Most(high);
     }
 }
 
-// The box along the coordinate axes around the boxes of all children of a node.
+// The same for the box around all children of another node.
 HWY_INLINE void BoxOfNode(const TreeNode& from, TreeNode& node, std::size_t child) {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
-    for (std::size_t i = 0; i < 3; ++i) {
-        float low = infinity, high = -infinity;
-        for (std::size_t c = 0; c < tree_width; ++c) {
-            if (!(from.low[0][c] <= from.high[0][c])) continue; // empty
-            float least = 0, most = 0;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const float a = from.axis[k][i][c] * from.low[k][c], b = from.axis[k][i][c] * from.high[k][c];
-                least += a < b ? a : b;
-                most += a < b ? b : a;
-            }
-            low = least < low ? least : low;
-            high = most > high ? most : high;
+    const D d;
+    for (std::size_t k = 0; k < 3; ++k) {
+        V low = hn::Load(d, from.low[k]), high = hn::Load(d, from.high[k]);
+        for (std::size_t lane = hn::Lanes(d); lane < tree_width; lane += hn::Lanes(d)) {
+            low = hn::Min(low, hn::Load(d, from.low[k] + lane));
+            high = hn::Max(high, hn::Load(d, from.high[k] + lane));
         }
-        for (std::size_t k = 0; k < 3; ++k) node.axis[k][i][child] = k == i ? 1.0f : 0.0f;
-        node.low[i][child] = low;
-        node.high[i][child] = high;
+        node.low[k][child] = Least(low);
+        node.high[k][child] = Most(high);
     }
-}
-
-// Two unit vectors at right angles to n and to each other (Duff et al., "Building an orthonormal basis,
-// revisited", Journal of Computer Graphics Techniques 6, 2017). Without n, the coordinate axes.
-HWY_INLINE void AxesOf(const Direction& n, float (&axes)[3][3]) {
-    const float x = n.of[0], y = n.of[1], z = n.of[2];
-    const float sign = z < 0 ? -1.0f : 1.0f, a = -1.0f / (sign + z), b = x * y * a;
-    const bool any = x * x + y * y + z * z > 0.5f;
-    const float made[3][3] = {
-        {x, y, z}, {1.0f + sign * x * x * a, sign * b, -sign * x}, {b, sign + y * y * a, -y}};
-    for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t i = 0; i < 3; ++i) axes[k][i] = any ? made[k][i] : k == i ? 1.0f : 0.0f;
 }
 
 void RefitNodes(const TreeView& tree, const TreeLevel& level, std::size_t begin, std::size_t end,
                 TreeNode* nodes) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
-    constexpr std::size_t most_leaves = tree_width; // larger parts are seldom flat
     for (std::size_t i = begin; i < end; ++i) {
         TreeNode& node = nodes[level.first + i];
         node.first_child = level.first_child + static_cast<std::uint32_t>(i * tree_width);
@@ -354,31 +293,14 @@ void RefitNodes(const TreeView& tree, const TreeLevel& level, std::size_t begin,
             const std::uint32_t number = node.first_child + static_cast<std::uint32_t>(child);
             if (number >= level.last_child) {
                 for (std::size_t k = 0; k < 3; ++k) {
-                    for (std::size_t axis = 0; axis < 3; ++axis) node.axis[k][axis][child] = 0;
                     node.low[k][child] = infinity;
                     node.high[k][child] = -infinity;
                 }
-                continue;
-            }
-            if (level.leaves_below > most_leaves) {
-                BoxOfNode(nodes[number - tree.leaf_count], node, child);
-                continue;
-            }
-            Direction normal;
-            if (number < tree.leaf_count) {
-                normal = NormalOfLeaf(tree.leaves[number]);
+            } else if (number < tree.leaf_count) {
+                BoxOfLeaf(tree.leaves[number], node, child);
             } else {
-                const TreeNode& from = nodes[number - tree.leaf_count];
-                for (std::size_t k = 0; k < tree_width; ++k)
-                    normal.Add(from.axis[0][0][k], from.axis[0][1][k], from.axis[0][2][k]);
-                normal.Normalise();
+                BoxOfNode(nodes[number - tree.leaf_count], node, child);
             }
-            float axes[3][3];
-            AxesOf(normal, axes);
-            const std::size_t first = (i * tree_width + child) * level.leaves_below;
-            const std::size_t rest = tree.leaf_count - first;
-            BoxOfLeaves(tree.leaves + first, rest < level.leaves_below ? rest : level.leaves_below, axes,
-                        node, child);
         }
     }
 }

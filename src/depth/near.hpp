@@ -14,12 +14,8 @@ struct alignas(32) TreeLeaf {
     float a[3][tree_width], ab[3][tree_width], ac[3][tree_width];
 };
 
-// What bounds each of eight children: a box along three axes of its own, which are orthonormal to rounding.
-// In parts of a few hundred triangles, the first is their mean normal: where a surface is nearly flat, such a
-// box is a much better bound of the distance than one along the coordinate axes. A child that does not exist
-// has an empty box.
+// The boxes of eight children. A child that does not exist has an empty one.
 struct alignas(32) TreeNode {
-    float axis[3][3][tree_width];
     float low[3][tree_width], high[3][tree_width];
     std::uint32_t first_child; // its number
 };
@@ -47,7 +43,6 @@ struct TreeView {
 struct TreeLevel {
     std::size_t first, count;              // in nodes
     std::uint32_t first_child, last_child; // numbers
-    std::size_t leaves_below;              // a child, at most
 };
 
 // Makes the nodes of a level from `begin` to `end` from the leaves, and from the nodes below.

@@ -8,117 +8,7 @@
 #include "depth/normals.hpp"
 
 #include "base/prefetch.hpp"
-#include "base/simd.hpp"
 #include "base/vectors.hpp"
-
-#include <algorithm>
-#include <cmath>
-
-#undef VOX_SOURCE
-#define VOX_SOURCE "depth/normals.cpp"
-#include "base/each_target.hpp"
-
-#ifndef VOX_DEPTH_NORMALS_ONCE
-#define VOX_DEPTH_NORMALS_ONCE
-namespace vox::depth {
-
-constexpr std::size_t face_lanes = 8;
-
-// Triangles of a surface, one in each lane.
-struct FaceBlock {
-    alignas(64) double corner[4][3][face_lanes]; // the last one is the apex
-    // What a Face holds; `inside` is 0 where the tetrahedron is flat.
-    alignas(64) double normal[3][face_lanes], weight[3][face_lanes], inside[face_lanes];
-};
-
-} // namespace vox::depth
-#endif
-
-HWY_BEFORE_NAMESPACE();
-namespace vox::depth {
-namespace HWY_NAMESPACE {
-namespace normals { // other files of the folder have a Load, too
-
-#if HWY_HAVE_FLOAT64
-namespace hn = hwy::HWY_NAMESPACE;
-
-using Doubles = hn::CappedTag<double, face_lanes>;
-using D = hn::Vec<Doubles>;
-
-HWY_INLINE std::size_t LaneCount() { return hn::Lanes(Doubles()); }
-HWY_INLINE D Load(const double* from) { return hn::Load(Doubles(), from); }
-HWY_INLINE void Store(D value, double* to) { hn::Store(value, Doubles(), to); }
-HWY_INLINE D Number(double value) { return hn::Set(Doubles(), value); }
-HWY_INLINE D Add(D a, D b) { return hn::Add(a, b); }
-HWY_INLINE D Sub(D a, D b) { return hn::Sub(a, b); }
-HWY_INLINE D Mul(D a, D b) { return hn::Mul(a, b); }
-HWY_INLINE D Div(D a, D b) { return hn::Div(a, b); }
-HWY_INLINE D Root(D a) { return hn::Sqrt(a); }
-HWY_INLINE D SelectAbove(D a, D b, D yes, D no) { return hn::IfThenElse(hn::Gt(a, b), yes, no); }
-#else // one lane, without registers of doubles
-using D = double;
-
-HWY_INLINE std::size_t LaneCount() { return 1; }
-HWY_INLINE D Load(const double* from) { return *from; }
-HWY_INLINE void Store(D value, double* to) { *to = value; }
-HWY_INLINE D Number(double value) { return value; }
-HWY_INLINE D Add(D a, D b) { return a + b; }
-HWY_INLINE D Sub(D a, D b) { return a - b; }
-HWY_INLINE D Mul(D a, D b) { return a * b; }
-HWY_INLINE D Div(D a, D b) { return a / b; }
-HWY_INLINE D Root(D a) { return std::sqrt(a); }
-HWY_INLINE D SelectAbove(D a, D b, D yes, D no) { return a > b ? yes : no; }
-#endif
-
-HWY_INLINE D Dot(const D* a, const D* b) {
-    return Add(Add(Mul(a[0], b[0]), Mul(a[1], b[1])), Mul(a[2], b[2]));
-}
-HWY_INLINE D Minor(const D* a, const D* b, int i, int j) { return Sub(Mul(a[i], b[j]), Mul(a[j], b[i])); }
-// area / e / f, or 0 where e or f is.
-HWY_INLINE D Weight(D area, D e, D f) {
-    const D zero = Number(0);
-    return SelectAbove(e, zero, SelectAbove(f, zero, Div(Div(area, e), f), zero), zero);
-}
-
-// Normals out of the tetrahedra, unit or zero, and their weights in the normals of the corners. Computes
-// whole registers.
-void ComputeFaces(FaceBlock& block) {
-    for (std::size_t i = 0; i < face_lanes; i += LaneCount()) {
-        D ab[3], bc[3], ca[3], ac[3], to_apex[3];
-        for (int x = 0; x < 3; ++x) {
-            const D a = Load(block.corner[0][x] + i), b = Load(block.corner[1][x] + i),
-                    c = Load(block.corner[2][x] + i);
-            ab[x] = Sub(b, a);
-            bc[x] = Sub(c, b);
-            ca[x] = Sub(a, c);
-            ac[x] = Sub(c, a);
-            to_apex[x] = Sub(Load(block.corner[3][x] + i), a);
-        }
-        const D zero = Number(0), minus = Number(-1);
-        D normal[3] = {Minor(ab, ac, 1, 2), Minor(ab, ac, 2, 0), Minor(ab, ac, 0, 1)};
-        const D area = Root(Dot(normal, normal)); // doubled
-        const D inside = Dot(normal, to_apex);
-        for (D& n : normal) n = SelectAbove(inside, zero, Mul(minus, n), n);
-        const D squared = Dot(normal, normal), length = Root(squared);
-        for (int x = 0; x < 3; ++x) // normalised() of base/vectors.hpp
-            Store(SelectAbove(squared, Number(1e-290), Div(normal[x], length), zero), block.normal[x] + i);
-        Store(inside, block.inside + i);
-        // `area` is sin(angle) * e * f at each corner, with the lengths e and f of its edges.
-        const D lab = Dot(ab, ab), lbc = Dot(bc, bc), lca = Dot(ca, ca);
-        Store(Weight(area, lab, lca), block.weight[0] + i);
-        Store(Weight(area, lab, lbc), block.weight[1] + i);
-        Store(Weight(area, lbc, lca), block.weight[2] + i);
-    }
-}
-
-} // namespace normals
-using normals::ComputeFaces;
-
-} // namespace HWY_NAMESPACE
-} // namespace vox::depth
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
 
 namespace vox::depth {
 
@@ -200,30 +90,23 @@ void Normals::list_rings(std::size_t first_asked) {
         ring_faces_[i] = add_face(ring_faces_[i]);
 }
 
-// Those from `first` on.
+// Those from `first` on: normals out of the tetrahedra, and their weights in the normals of the corners.
 void Normals::compute_faces(std::size_t first) {
-    const auto compute = VOX_SIMD_DISPATCH(ComputeFaces);
-    FaceBlock block;
-    for (; first < faces_.size(); first += face_lanes) {
-        const std::size_t count = std::min(face_lanes, faces_.size() - first);
-        for (std::size_t lane = 0; lane < face_lanes; ++lane) { // the last registers are filled up
-            const Face& face = faces_[first + std::min(lane, count - 1)];
-            const std::uint32_t apex = solid_.topology->triangles[face.triangle & ~Face::flat_bit].apex;
-            const std::uint32_t v[4] = {face.v[0], face.v[1], face.v[2], apex};
-            for (std::size_t c = 0; c < 4; ++c) {
-                const Vec3d p = solid_.at(v[c]);
-                block.corner[c][0][lane] = p.x;
-                block.corner[c][1][lane] = p.y;
-                block.corner[c][2][lane] = p.z;
-            }
-        }
-        compute(block);
-        for (std::size_t lane = 0; lane < count; ++lane) {
-            Face& face = faces_[first + lane];
-            face.normal = {block.normal[0][lane], block.normal[1][lane], block.normal[2][lane]};
-            for (std::size_t c = 0; c < 3; ++c) face.weight[c] = block.weight[c][lane];
-            if (block.inside[lane] == 0) face.triangle |= Face::flat_bit;
-        }
+    for (; first < faces_.size(); ++first) {
+        Face& face = faces_[first];
+        const Vec3d a = solid_.at(face.v[0]), b = solid_.at(face.v[1]), c = solid_.at(face.v[2]);
+        const Vec3d apex = solid_.at(solid_.topology->triangles[face.triangle & ~Face::flat_bit].apex);
+        const Vec3d ab = b - a, bc = c - b, ca = a - c, normal = cross(ab, c - a);
+        const double inside = dot(normal, apex - a);
+        const Vec3d unit = normalised(normal);
+        face.normal = inside > 0 ? -1.0 * unit : unit;
+        if (inside == 0) face.triangle |= Face::flat_bit;
+        // `area`, doubled, is sin(angle) * e * f at each corner, with the lengths e and f of its edges.
+        const double area = length(normal), lab = dot(ab, ab), lbc = dot(bc, bc), lca = dot(ca, ca);
+        const auto weight = [area](double e, double f) { return e > 0 && f > 0 ? area / e / f : 0.0; };
+        face.weight[0] = weight(lab, lca);
+        face.weight[1] = weight(lab, lbc);
+        face.weight[2] = weight(lbc, lca);
     }
 }
 
@@ -267,4 +150,3 @@ Vec3d Normals::at(const SurfacePoint& point, const Vec3d& outward) {
 }
 
 } // namespace vox::depth
-#endif

@@ -2,7 +2,6 @@
 
 #include "base/room.hpp"
 
-#include <algorithm>
 #include <tuple>
 
 namespace vox {

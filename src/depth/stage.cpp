@@ -34,11 +34,9 @@ void DepthStage::find(std::span<const Body> bodies, std::span<const Topology* co
     const auto find_pairs = [&](std::size_t begin, std::size_t end, std::uint32_t worker) {
         for (std::size_t i = begin; i < end; ++i) find_consistent(scene, i, workers_[worker]);
     };
-    if (!closest && (!workers || places_.size() <= least))
-        find_pairs(0, pairs_.size(), 0);
-    else if (!closest)
-        workers->for_ranges(pairs_.size(), std::max<std::size_t>(pairs_.size() * least / places_.size(), 1),
-                            find_pairs);
+    if (!closest && !places_.empty())
+        for_ranges(workers, pairs_.size(), std::max<std::size_t>(pairs_.size() * least / places_.size(), 1),
+                   find_pairs);
     // With `closest` all are as begin() left them, and the fallback finds them.
     Counts fallback_counts;
     const auto [searches, unknown] = fallback_.find({bodies, topologies, hits, places_, penetrations},

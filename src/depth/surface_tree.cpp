@@ -8,18 +8,13 @@
 #include "depth/closest.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
-#include <tuple>
-#include <utility>
 
 namespace vox::depth {
 
 namespace {
 
 constexpr int axis_bits = 10; // the curve runs through 2^axis_bits cells an axis
-constexpr int digit_bits = 10;
 
 struct Box3d {
     Vec3d min, max;
@@ -70,26 +65,13 @@ std::uint32_t SurfaceTree::place_on_curve(const Vec3d& p) const noexcept {
 // Part after part.
 Array<SurfaceTree::Key> SurfaceTree::sort_along_curve() const {
     const auto count = static_cast<std::uint32_t>(solid_.topology->triangles.size());
-    Array<Key> order(count, part_.memory()), scratch(count, part_.memory());
+    Array<Key> order(count, part_.memory());
     for (std::uint32_t t = 0; t < count; ++t) {
         const Box3d box = box_of(solid_, t);
-        order[t] = {place_on_curve(0.5 * box.min + 0.5 * box.max), t};
+        const std::uint32_t part = part_.empty() ? 0 : part_[solid_.topology->triangles[t].v[0]];
+        order[t] = {part, place_on_curve(0.5 * box.min + 0.5 * box.max), t};
     }
-    std::array<std::uint32_t, 1 << digit_bits> place;
-    for (int shift = 0; shift < 3 * axis_bits; shift += digit_bits) {
-        const auto digit = [shift](const Key& key) { return key.code >> shift & ((1u << digit_bits) - 1); };
-        place.fill(0);
-        for (const Key& key : order) ++place[digit(key)];
-        std::uint32_t sum = 0;
-        for (std::uint32_t& p : place) sum += std::exchange(p, sum);
-        for (const Key& key : order) scratch[place[digit(key)]++] = key;
-        order.swap(scratch);
-    }
-    if (part_.empty()) return order;
-    const auto key = [&](const Key& k) {
-        return std::tuple(part_[solid_.topology->triangles[k.triangle].v[0]], k.code, k.triangle);
-    };
-    std::sort(order.begin(), order.end(), [&](const Key& x, const Key& y) { return key(x) < key(y); });
+    std::sort(order.begin(), order.end());
     return order;
 }
 
@@ -97,11 +79,9 @@ Array<SurfaceTree::Key> SurfaceTree::sort_along_curve() const {
 void SurfaceTree::lay_out(std::span<const Key> order) {
     triangles_.clear();
     for (std::size_t i = 0; i < order.size(); ++i) {
-        const std::uint32_t triangle = order[i].triangle;
-        const auto part = [&](std::uint32_t t) { return part_[solid_.topology->triangles[t].v[0]]; };
-        if (!part_.empty() && i > 0 && part(triangle) != part(order[i - 1].triangle))
+        if (i > 0 && order[i].part != order[i - 1].part)
             while (triangles_.size() % tree_width != 0) triangles_.push_back(triangles_.back());
-        triangles_.push_back(triangle);
+        triangles_.push_back(order[i].triangle);
     }
     while (triangles_.size() % tree_width != 0) triangles_.push_back(triangles_.back());
 
@@ -109,13 +89,11 @@ void SurfaceTree::lay_out(std::span<const Key> order) {
     levels_.clear();
     levels_.reserve(TreeView::most_levels);
     std::uint32_t first_child = 0, last_child = leaves;
-    std::size_t below = 1;
     do {
         const std::size_t count = (last_child - first_child + tree_width - 1) / tree_width;
-        levels_.push_back({last_child - leaves, count, first_child, last_child, below});
+        levels_.push_back({last_child - leaves, count, first_child, last_child});
         first_child = last_child;
         last_child += static_cast<std::uint32_t>(count);
-        below *= tree_width;
     } while (levels_.back().count > 1);
     leaves_.resize(leaves);
     nodes_.resize(last_child - leaves);
@@ -169,16 +147,10 @@ void SurfaceTree::update(const Solid& solid, bool folds, Workers* workers) {
 
 void SurfaceTree::fit(Workers* workers) {
     constexpr std::size_t least = 256; // leaves that are worth a task
-    const auto run = [&](std::size_t items, std::size_t least_items, auto&& function) {
-        const auto range = [&](std::size_t begin, std::size_t end, std::uint32_t) { function(begin, end); };
-        if (workers)
-            workers->for_ranges(items, least_items, range);
-        else
-            range(0, items, 0);
-    };
-    run(leaves_.size(), least, [&](std::size_t begin, std::size_t end) { fit_leaves(begin, end); });
+    for_ranges(workers, leaves_.size(), least,
+               [&](std::size_t begin, std::size_t end, std::uint32_t) { fit_leaves(begin, end); });
     for (const TreeLevel& level : levels_)
-        run(level.count, least, [&](std::size_t begin, std::size_t end) {
+        for_ranges(workers, level.count, least, [&](std::size_t begin, std::size_t end, std::uint32_t) {
             refit_nodes(view_, level, begin, end, nodes_.data());
         });
 }

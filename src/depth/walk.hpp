@@ -1,4 +1,4 @@
-// The walk along a segment that begins inside a mesh, to where it leaves the mesh.
+// Walks along segments that begin inside a mesh, to where they leave the mesh.
 #pragma once
 
 #include "base/scene.hpp"
@@ -25,10 +25,21 @@ struct SurfacePoint {
     Vec3d point;
 };
 
-// Walks along the segment from p, in the closed tetrahedron `tet`, to q, from tetrahedron to tetrahedron.
-// Returns true and sets `out` when the segment leaves the mesh between the two. Returns false when it does
-// not, or meets a facet where three or more tetrahedra meet. Adds the number of tetrahedra on its way to
-// `visited`.
+struct Walk {
+    // The segment, and the closed tetrahedron in which it begins.
+    Vec3d p, q;
+    std::uint32_t tet;
+    // Whether the segment leaves the mesh between p and q, and not by a facet where three or more tetrahedra
+    // meet; how many tetrahedra are on its way; and where it leaves, if it does.
+    bool leaves;
+    std::uint64_t visited;
+    SurfacePoint exit;
+};
+
+// Walks from tetrahedron to tetrahedron. Sets `leaves`, `visited` and `exit` of all walks.
+void walk_out(const Solid& solid, std::span<Walk> walks);
+
+// One such walk. Returns whether the segment leaves the mesh, and adds to `visited`.
 bool walk_out(const Solid& solid, std::uint32_t tet, const Vec3d& p, const Vec3d& q, SurfacePoint& out,
               std::uint64_t& visited);
 

@@ -1,9 +1,8 @@
-// What the depth stage does for many at once against the same one by one: walks at every SIMD level, the
-// records of vertices and the tables of places against plain containers.
+// What the depth stage does for many at once against the same one by one: walks. And the records of vertices
+// and the tables of places against plain containers.
 #include "base/place_map.hpp"
-#include "base/simd.hpp"
 #include "base/vectors.hpp"
-#include "depth/walks.hpp"
+#include "depth/walk.hpp"
 #include "internal/scenes.hpp"
 #include "mesh/topology.hpp"
 #include "support/suite.h"
@@ -93,27 +92,19 @@ START_TEST(walks_side_by_side) {
                       Positions{reinterpret_cast<const std::byte*>(mesh.positions.data()), sizeof(Vec3f)}};
     std::size_t left = 0;
     for (const std::size_t count : {1u, 2u, 7u, 8u, 9u, 63u, 64u, 65u, 300u}) {
-        const std::vector<Walk> asked = some_walks(random, mesh, count);
-        for (const simd::Level level :
-             {simd::Level::portable, simd::Level::sse4, simd::Level::avx2, simd::Level::avx512}) {
-            if (simd::force_level(level) != level) continue;
-            std::vector<Walk> walks = asked;
-            walk_out(solid, walks);
-            for (const Walk& walk : walks) {
-                SurfacePoint exit{};
-                std::uint64_t visited = 0;
-                const bool leaves = walk_out(solid, walk.tet, walk.p, walk.q, exit, visited);
-                ck_assert_msg(walk.leaves == leaves && walk.visited == visited,
-                              "%s: leaves %d, expected %d; visited %llu, expected %llu",
-                              simd::level_name(level), walk.leaves, leaves,
-                              static_cast<unsigned long long>(walk.visited),
-                              static_cast<unsigned long long>(visited));
-                ck_assert_msg(!leaves || same_bits(walk.exit, exit), "%s: another exit",
-                              simd::level_name(level));
-                left += leaves;
-            }
+        std::vector<Walk> walks = some_walks(random, mesh, count);
+        walk_out(solid, walks);
+        for (const Walk& walk : walks) {
+            SurfacePoint exit{};
+            std::uint64_t visited = 0;
+            const bool leaves = walk_out(solid, walk.tet, walk.p, walk.q, exit, visited);
+            ck_assert_msg(walk.leaves == leaves && walk.visited == visited,
+                          "leaves %d, expected %d; visited %llu, expected %llu", walk.leaves, leaves,
+                          static_cast<unsigned long long>(walk.visited),
+                          static_cast<unsigned long long>(visited));
+            ck_assert_msg(!leaves || same_bits(walk.exit, exit), "another exit");
+            left += leaves;
         }
-        simd::force_level(simd::best_level());
     }
     ck_assert_uint_gt(left, 20);
 }

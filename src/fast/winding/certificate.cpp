@@ -33,7 +33,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #undef VOX_SOURCE
 #define VOX_SOURCE "fast/winding/certificate.cpp"

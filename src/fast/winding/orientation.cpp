@@ -347,10 +347,7 @@ void orient(const OrientedBody& body, OrientationCache& cache, std::uint64_t* ba
         }
     };
     constexpr std::size_t task_supers = 16; // are worth a task: by bench_stages, 20 microseconds
-    if (workers)
-        workers->for_ranges(supers, task_supers, part);
-    else
-        part(0, supers, 0);
+    for_ranges(workers, supers, task_supers, part);
 }
 
 } // namespace vox::fast
