@@ -26,8 +26,6 @@ static_assert(sizeof(Hit) == sizeof(vox_contact) && offsetof(Hit, body_a) == off
               offsetof(Hit, vertex) == offsetof(vox_contact, vertex));
 std::uint32_t body_of(const Hit& hit) { return hit.body_a; }
 std::uint32_t body_of(const vox_contact& contact) { return contact.body_a; }
-Hit to_hit(const Hit& hit) { return hit; }
-Hit to_hit(const vox_contact& contact) { return std::bit_cast<Hit>(contact); }
 
 template <class Stored>
 bool same_vertex(const Stored& x, const Stored& y) {
@@ -109,47 +107,23 @@ Hit* keep(Hit* begin, Hit* end, Hit* kept) {
     return kept;
 }
 
-// The same for `count` hits in order, of which at(i) is the i-th, in either list. `hits` has as many places,
-// which may be those of the hits themselves.
-template <class At>
-Hit* keep_all(std::size_t count, At&& at, Hit* hits, Hit* kept) {
-    for (std::size_t begin = 0, end; begin < count; begin = end) {
+// The same for hits in order. `kept` may be where they are.
+template <class Stored>
+Hit* keep_all(std::span<const Stored> sorted, Hit* hits, Hit* kept) {
+    for (std::size_t begin = 0, end; begin < sorted.size(); begin = end) {
         end = begin + 1;
-        while (end < count && same_vertex(at(begin), at(end))) ++end;
+        while (end < sorted.size() && same_vertex(sorted[begin], sorted[end])) ++end;
         if (end - begin == 1) {
-            *kept++ = to_hit(at(begin));
+            *kept++ = std::bit_cast<Hit>(sorted[begin]);
             continue;
         }
-        for (std::size_t i = begin; i < end; ++i) hits[i] = to_hit(at(i));
+        for (std::size_t i = begin; i < end; ++i) hits[i] = std::bit_cast<Hit>(sorted[i]);
         kept = keep(hits + begin, hits + end, kept);
     }
     return kept;
 }
-
-// The order of some hits: the lowest bits of the key of each, and its index among them.
-constexpr int index_bits = 12;
-constexpr std::uint32_t most_in_order = 1u << index_bits;
-using Order = std::array<std::uint32_t, most_in_order>;
-
-// By the lowest `bits` of the keys, of which there is room for 32 - index_bits.
-void find_order(const SortKey& key, int bits, std::span<const vox_contact> hits, Order& order) {
-    const int digit_bits = (bits + 1) / 2;
-    const std::size_t values = std::size_t{1} << digit_bits;
-    const auto lower = [=](std::uint32_t item) { return item >> index_bits & (values - 1); };
-    const auto upper = [=](std::uint32_t item) { return item >> (index_bits + digit_bits); };
-    Order other;
-    Places low, high;
-    for (Places* places : {&low, &high}) std::fill_n(places->begin(), values, 0u);
-    const auto count = static_cast<std::uint32_t>(hits.size());
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const std::uint64_t bits_of_key = key.of(hits[i]) & ((std::uint64_t{1} << bits) - 1);
-        order[i] = static_cast<std::uint32_t>(bits_of_key) << index_bits | i;
-        ++low[lower(order[i])];
-        ++high[upper(order[i])];
-    }
-    for (Places* places : {&low, &high}) sum(*places, values);
-    for (std::uint32_t i = 0; i < count; ++i) other[low[lower(order[i])]++] = order[i];
-    for (std::uint32_t i = 0; i < count; ++i) order[high[upper(other[i])]++] = other[i];
+Hit* keep_all(std::span<Hit> sorted) {
+    return keep_all(std::span<const Hit>(sorted), sorted.data(), sorted.data());
 }
 
 // Calls function(i) for each i below `count`, in tasks unless there are no workers.
@@ -158,31 +132,20 @@ void for_each(Workers* workers, std::size_t count, Function&& function) {
     const auto run = [&](std::size_t begin, std::size_t end, std::uint32_t) {
         for (std::size_t i = begin; i < end; ++i) function(i);
     };
-    if (workers)
-        workers->for_ranges(count, 1, run);
-    else
-        run(0, count, 0);
+    for_ranges(workers, count, 1, run);
 }
 
 // Sorts the hits of a piece, which have all but the lowest bits of their keys in common, and moves those that
 // become contacts to the front of `out`, which has as many places. Returns how many do.
 std::uint32_t keep_piece(const SortKey& key, int low_bits, std::span<vox_contact> piece, std::span<Hit> out) {
-    Order order;
-    const bool has_order = piece.size() <= most_in_order && low_bits <= 32 - index_bits;
-    if (has_order)
-        find_order(key, low_bits, piece, order);
-    else
-        sort_by_low_bits(key, low_bits, piece, out);
-    const auto at = [&](std::size_t i) -> const vox_contact& {
-        return piece[has_order ? order[i] % most_in_order : i];
-    };
-    return static_cast<std::uint32_t>(keep_all(piece.size(), at, out.data(), out.data()) - out.data());
+    sort_by_low_bits(key, low_bits, piece, out);
+    const Hit* end = keep_all(std::span<const vox_contact>(piece), out.data(), out.data());
+    return static_cast<std::uint32_t>(end - out.data());
 }
 
 // As sort_and_keep(). The hits are first moved into pieces by the upper bits of their keys: each of a few
-// chunks of the list counts its hits of every piece, which gives the places that it moves them to. The order
-// of a piece is then found in the first cache, and they are moved a second time to where they are kept.
-// Workers share chunks, then pieces.
+// chunks of the list counts its hits of every piece, which gives the places that it moves them to. A piece is
+// then sorted in the first cache. Workers share chunks, then pieces.
 Hit* sort_and_keep_in_pieces(const SortKey& key, std::span<Hit> hits, std::span<vox_contact> contacts,
                              Workers* workers) {
     constexpr std::size_t piece_size = 1024; // on average
@@ -237,8 +200,7 @@ Hit* sort_and_keep(std::span<const Body> bodies, std::span<Hit> hits, std::span<
     if (hits.size() > (workers ? few_for_tasks : few))
         return sort_and_keep_in_pieces(key, hits, contacts, workers);
     sort_by_low_bits(key, key.bits, hits, contacts);
-    const auto at = [&](std::size_t i) -> const Hit& { return hits[i]; };
-    return keep_all(hits.size(), at, hits.data(), hits.data());
+    return keep_all(hits);
 }
 
 // With room for a few more, so that a few more contacts in a later step allocate nothing.
@@ -262,8 +224,7 @@ void make_contacts(std::span<const Body> bodies, Array<Hit>& hits, Array<vox_con
         kept = sort_and_keep(bodies, hits, contacts, workers);
     } else {
         std::sort(hits.begin(), hits.end(), before);
-        const auto at = [&](std::size_t i) -> const Hit& { return hits[i]; };
-        kept = keep_all(hits.size(), at, hits.data(), hits.data());
+        kept = keep_all(std::span<Hit>(hits));
     }
     hits.resize(static_cast<std::size_t>(kept - hits.data()));
     contacts.resize(hits.size());
@@ -278,10 +239,7 @@ void make_contacts(std::span<const Body> bodies, Array<Hit>& hits, Array<vox_con
         }
     };
     constexpr std::size_t least = 8192; // worth a task
-    if (workers && hits.size() > least)
-        workers->for_ranges(hits.size(), least, write);
-    else
-        write(0, hits.size(), 0);
+    for_ranges(workers, hits.size(), least, write);
 }
 
 std::uint64_t hash_contacts(std::span<const vox_contact> contacts) noexcept {
