@@ -4,8 +4,8 @@
 //
 // Else, as for a scaffold of rods, a streamed segment tree, whose time does not depend on where the boxes are
 // (A. Zomorodian, H. Edelsbrunner, Fast software for box intersections, Int. J. Comput. Geom. Appl. 12, 2002,
-// Sect. 3). It is given up where most of what it finds is excluded by filters, as in a pile of bodies of one
-// negative group; then classes of bodies that the filters treat alike are joined, two at a time.
+// Sect. 3). Classes of bodies that the filters treat alike are joined, two at a time, so that it never meets
+// pairs that filters exclude, as in a pile of bodies of one negative group.
 #include "fast/body_pairs.hpp"
 
 #include "base/array.hpp"
@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <numeric>
 
 namespace vox::fast {
 
@@ -23,9 +22,13 @@ namespace {
 // Tests of the sweep for each box beyond which the join takes over. In the arrangements of bench_pairs_worst
 // the two take equally long at 250 to 800, so the number matters little.
 constexpr std::uint64_t most_tests = 400;
-// The join is given up when it has found more excluded pairs than this for each box.
-constexpr std::uint64_t most_excluded = 64;
 constexpr std::uint64_t few_boxes = 64; // up to so many, the sweep is always used
+
+// The bits of a float in the order of its value; the two zeros are one.
+std::uint32_t ordered_bits(float value) noexcept {
+    const auto bits = std::bit_cast<std::uint32_t>(value + 0.0f);
+    return bits >> 31 ? ~bits : bits | 0x80000000u;
+}
 
 int widest_axis(std::span<const Box> boxes) {
     double sum[3] = {}, squares[3] = {}, count = 0;
@@ -64,26 +67,18 @@ bool is_wanted(const Body& a, bool a_moved, const Body& b, bool b_moved) {
     return (a_moved || b_moved) && !(a.tets.empty() && b.tets.empty()) && collide(a, b);
 }
 
-// Collects the pairs that are wanted, and counts those that are not.
+// Collects the pairs that are wanted.
 class PairCollector {
 public:
-    PairCollector(const PairRules& rules, Array<Pair>& found) : rules_(rules), found_(found) {}
-
-    // Starts again. It is full when it was given more than so many pairs that are excluded.
-    void start(std::uint64_t most) {
+    PairCollector(const PairRules& rules, Array<Pair>& found) : rules_(rules), found_(found) {
         found_.clear();
-        most_excluded_ = most;
-        excluded_ = 0;
     }
-    bool is_full() const noexcept { return excluded_ > most_excluded_; }
 
     // Two boxes overlap.
     void add(std::uint32_t a, std::uint32_t b) {
         if (!rules_.bodies.empty() &&
-            !is_wanted(rules_.bodies[a], rules_.has_moved(a), rules_.bodies[b], rules_.has_moved(b))) {
-            ++excluded_;
+            !is_wanted(rules_.bodies[a], rules_.has_moved(a), rules_.bodies[b], rules_.has_moved(b)))
             return;
-        }
         found_.push_back({a, b});
         found_.push_back({b, a});
     }
@@ -94,32 +89,8 @@ public:
 private:
     const PairRules& rules_;
     Array<Pair>& found_;
-    std::uint64_t most_excluded_ = 0, excluded_ = 0, looks_ = 0;
+    std::uint64_t looks_ = 0;
 };
-
-// ---- order --------------------------------------------------------------------------------------------
-
-} // namespace
-
-// A radix sort (Knuth, The Art of Computer Programming 3, Sect. 5.2.5).
-void sort_by_upper_half(Array<std::uint64_t>& items, Array<std::uint64_t>& other) {
-    constexpr std::size_t few_items = 512; // are sorted faster by comparisons
-    if (items.size() <= few_items) return std::sort(items.begin(), items.end());
-    if (std::is_sorted(items.begin(), items.end())) return;
-    other.resize(items.size());
-    constexpr int digit_bits = 11;
-    constexpr std::size_t values = std::size_t{1} << digit_bits;
-    std::array<std::uint32_t, values> place;
-    for (int shift = 32; shift < 64; shift += digit_bits) {
-        place.fill(0);
-        for (const std::uint64_t item : items) ++place[(item >> shift) % values];
-        std::exclusive_scan(place.begin(), place.end(), place.begin(), 0u);
-        for (const std::uint64_t item : items) other[place[(item >> shift) % values]++] = item;
-        items.swap(other);
-    }
-}
-
-namespace {
 
 // The boxes that are not empty, by where they begin along an axis, then by index.
 void sort_boxes(std::span<const Box> boxes, int axis, PairBuffers& buffers) {
@@ -127,7 +98,7 @@ void sort_boxes(std::span<const Box> boxes, int axis, PairBuffers& buffers) {
     for (std::uint32_t i = 0; i < boxes.size(); ++i)
         if (!is_empty(boxes[i]))
             buffers.corners.push_back(std::uint64_t{ordered_bits(boxes[i].lo[axis])} << 32 | i);
-    sort_by_upper_half(buffers.corners, buffers.other_corners);
+    std::sort(buffers.corners.begin(), buffers.corners.end());
     buffers.order.resize(buffers.corners.size());
     buffers.boxes.resize(buffers.corners.size());
     for (std::size_t i = 0; i < buffers.corners.size(); ++i) {
@@ -143,13 +114,10 @@ std::uint64_t count_tests(std::span<const Box> sorted, int axis, std::uint64_t m
     std::uint64_t tests = 0;
     for (std::size_t i = 0; i < sorted.size() && tests <= most; ++i) {
         const float end = sorted[i].hi[axis];
-        std::size_t step = 1; // doubled, then halved: mostly few boxes begin before one ends
-        while (i + step < sorted.size() && sorted[i + step].lo[axis] <= end) step *= 2;
-        const auto first = sorted.begin() + static_cast<std::ptrdiff_t>(i + step / 2),
-                   last = sorted.begin() + static_cast<std::ptrdiff_t>(std::min(i + step, sorted.size()));
-        const auto next = std::partition_point(first + (first < last), last,
-                                               [&](const Box& box) { return box.lo[axis] <= end; });
-        tests += static_cast<std::uint64_t>(next - sorted.begin()) - i - 1;
+        const auto after = sorted.subspan(i + 1);
+        const auto next =
+            std::ranges::partition_point(after, [=](const Box& box) { return box.lo[axis] <= end; });
+        tests += static_cast<std::uint64_t>(next - after.begin());
     }
     return tests;
 }
@@ -179,7 +147,7 @@ void rank_boxes(int axis_of_last, PairBuffers& buffers) {
             buffers.corners[i] = std::uint64_t{ordered_bits(box.lo[from])} << 32 | i;
             buffers.corners[count + i] = std::uint64_t{ordered_bits(box.hi[from])} << 32 | (count + i);
         }
-        sort_by_upper_half(buffers.corners, buffers.other_corners);
+        std::sort(buffers.corners.begin(), buffers.corners.end());
         std::uint32_t next = 0;
         for (const std::uint64_t item : buffers.corners) {
             const auto corner = static_cast<std::uint32_t>(item);
@@ -209,7 +177,7 @@ void join(std::span<RankedBox> outer, std::span<RankedBox> inner, std::uint32_t 
     const auto add = [&](const RankedBox& a, const RankedBox& b) {
         if (a.box != b.box) out.add(a.box, b.box);
     };
-    if (outer.empty() || inner.empty() || out.is_full()) return;
+    if (outer.empty() || inner.empty()) return;
     if (std::min(outer.size(), inner.size()) <= few) {
         out.count_looks(outer.size() * inner.size());
         for (const RankedBox& a : outer)
@@ -230,10 +198,8 @@ void join(std::span<RankedBox> outer, std::span<RankedBox> inner, std::uint32_t 
         join(inner, spanning, 0, all, all, axis - 1, out);
     } else {
         out.count_looks(spanning.size() * inner.size());
-        for (const RankedBox& a : spanning) {
+        for (const RankedBox& a : spanning)
             for (const RankedBox& b : inner) add(a, b);
-            if (out.is_full()) return;
-        }
     }
     if (rest.empty()) return;
     const std::uint32_t middle = first + (last - first) / 2;
@@ -249,13 +215,6 @@ void join(std::span<RankedBox> outer, std::span<RankedBox> inner, std::uint32_t 
 
 constexpr int last_axis = 2;
 
-void join_all(PairBuffers& buffers, PairCollector& out) {
-    const std::span<RankedBox> ranked = buffers.ranked;
-    const auto all = static_cast<std::uint32_t>(ranked.size());
-    buffers.inner.assign(ranked.begin(), ranked.end());
-    join(ranked, buffers.inner, 0, all, all, last_axis, out);
-}
-
 // ---- classes ----------------------------------------------------------------------------------------
 
 // Bodies that all rules but exceptions treat alike.
@@ -265,10 +224,11 @@ struct RuleClass {
     std::uint32_t first, count; // of the boxes, sorted by class
 };
 
-// Gives each ranked box its class. Returns how many there are, or 0 where they are too many.
+// Gives each ranked box its class. Returns how many there are, or 0 where there are no rules or too many.
 std::size_t find_classes(const PairRules& rules, std::span<RankedBox> ranked,
                          std::array<RuleClass, most_rule_classes>& classes) {
     std::size_t count = 0;
+    if (rules.bodies.empty()) return 0;
     for (RankedBox& box : ranked) {
         const Body& body = rules.bodies[box.box];
         const bool moved = rules.has_moved(box.box);
@@ -289,13 +249,16 @@ std::size_t find_classes(const PairRules& rules, std::span<RankedBox> ranked,
 void join_classes(const PairRules& rules, PairBuffers& buffers, PairCollector& out) {
     std::array<RuleClass, most_rule_classes> classes;
     const std::size_t count = find_classes(rules, buffers.ranked, classes);
-    if (count == 0) return join_all(buffers, out);
+    const auto all = static_cast<std::uint32_t>(buffers.ranked.size());
+    if (count == 0) {
+        buffers.inner.assign(buffers.ranked.begin(), buffers.ranked.end());
+        return join(buffers.ranked, buffers.inner, 0, all, all, last_axis, out);
+    }
     std::sort(buffers.ranked.begin(), buffers.ranked.end(), [](const RankedBox& a, const RankedBox& b) {
         return a.rule != b.rule ? a.rule < b.rule : a.box < b.box;
     });
     std::uint32_t first = 0;
     for (std::size_t c = 0; c < count; first += classes[c++].count) classes[c].first = first;
-    const auto all = static_cast<std::uint32_t>(buffers.ranked.size());
     const auto of_class = [&](const RuleClass& c) {
         return std::span<const RankedBox>(buffers.ranked).subspan(c.first, c.count);
     };
@@ -329,19 +292,12 @@ void find_pairs(std::span<const Box> boxes, const PairRules& rules, PairBuffers&
     sort_boxes(boxes, axis, buffers);
     const std::size_t count = buffers.order.size();
     const std::uint64_t most = most_tests * count;
-    constexpr std::uint64_t no_limit = ~std::uint64_t{0};
     PairCollector out(rules, buffers.found);
     if (count <= few_boxes || count_tests(buffers.boxes, axis, most) <= most) {
-        out.start(no_limit);
         sweep(buffers.boxes, buffers.order, axis, out);
     } else {
         rank_boxes(axis, buffers);
-        out.start(rules.bodies.empty() ? no_limit : most_excluded * count);
-        join_all(buffers, out);
-        if (out.is_full()) {
-            out.start(no_limit);
-            join_classes(rules, buffers, out);
-        }
+        join_classes(rules, buffers, out);
     }
     buffers.looks = out.looks();
 

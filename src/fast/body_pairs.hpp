@@ -6,7 +6,6 @@
 #include "base/scene.hpp"
 #include "fast/step.hpp"
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
@@ -39,12 +38,12 @@ struct RankedBox {
 // Buffers kept from step to step.
 struct PairBuffers {
     explicit PairBuffers(std::pmr::memory_resource* memory)
-        : order(memory), boxes(memory), corners(memory), other_corners(memory), found(memory), first(memory),
-          ranked(memory), inner(memory), outer(memory) {}
+        : order(memory), boxes(memory), corners(memory), found(memory), first(memory), ranked(memory),
+          inner(memory), outer(memory) {}
 
     Array<std::uint32_t> order; // boxes that are not empty, along the axis of the sweep
     Array<Box> boxes;           // in that order
-    Array<std::uint64_t> corners, other_corners;
+    Array<std::uint64_t> corners;
     Array<Pair> found;
     Array<std::uint32_t> first;
     Array<RankedBox> ranked, inner, outer; // of scenes for which the sweep does not do
@@ -57,14 +56,5 @@ struct PairBuffers {
 // exceptions, exclude: these are tested one by one. Memory is taken for boxes and for wanted pairs alone.
 void find_pairs(std::span<const Box> boxes, const PairRules& rules, PairBuffers& buffers, Array<Pair>& pairs);
 inline constexpr std::size_t most_rule_classes = 32;
-
-// The bits of a float in the order of its value; the two zeros are one.
-inline std::uint32_t ordered_bits(float value) noexcept {
-    const auto bits = std::bit_cast<std::uint32_t>(value + 0.0f);
-    return bits >> 31 ? ~bits : bits | 0x80000000u;
-}
-
-// Sorts by the upper half items whose lower halves ascend. `other` is a buffer.
-void sort_by_upper_half(Array<std::uint64_t>& items, Array<std::uint64_t>& other);
 
 } // namespace vox::fast

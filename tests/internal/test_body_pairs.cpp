@@ -1,7 +1,6 @@
 // Pairs of boxes, against loops over all of them; and what finding them takes.
 #include "base/array.hpp"
 #include "fast/body_pairs.hpp"
-#include "fast/lone_boxes.hpp"
 #include "internal/counting_memory.hpp"
 #include "internal/random.hpp"
 #include "mesh/filter.hpp"
@@ -134,54 +133,6 @@ START_TEST(pairs_are_those_that_are_wanted) {
 }
 END_TEST
 
-// Sizes alike or not, along one axis or all, flat, in one place, far apart.
-START_TEST(met_boxes_are_those_of_pairs) {
-    Random r{8};
-    fast::PairBuffers buffers(std::pmr::get_default_resource());
-    std::size_t lone = 0, met = 0, given_up = 0;
-    for (int round = 0; round < 600; ++round) {
-        std::vector<Box> boxes;
-        const std::uint32_t count = r.below(round % 10 ? 200 : 1500);
-        double extent[3], side[3];
-        for (int a = 0; a < 3; ++a) {
-            extent[a] = std::ldexp(1.0, int(r.below(12)));
-            side[a] = r.below(8) ? 1 + 3 * r.unit() : 0;
-        }
-        const double far = r.below(4) ? 0 : 1e30;
-        const bool whole = r.below(2), mixed = r.below(3) == 0;
-        for (std::uint32_t i = 0; i < count; ++i) {
-            if (round % 7 == 0) {
-                boxes.push_back(random_box(r, 600, 3, int(r.below(300))));
-                continue;
-            }
-            Box box = empty_box;
-            for (int a = 0; a < 3; ++a) {
-                double lo = far + r.unit() * extent[a] * (far > 0 ? 1e29 : 1), length = side[a];
-                if (mixed) length *= std::ldexp(1.0, int(r.below(6)));
-                if (mixed && r.below(400) == 0) length *= 1000;
-                if (whole) lo = std::floor(lo), length = std::floor(length);
-                box.lo[a] = float(lo);
-                box.hi[a] = float(lo + length);
-            }
-            boxes.push_back(box);
-        }
-        vox::Array<std::uint8_t> found(std::pmr::get_default_resource());
-        std::vector<std::uint8_t> expected(count, 0);
-        if (!fast::find_met_boxes(boxes, buffers, found)) {
-            ++given_up;
-            continue;
-        }
-        for (const auto& [a, b] : by_definition(boxes, {})) expected[a] = 1;
-        ck_assert_msg(std::equal(found.begin(), found.end(), expected.begin(), expected.end()), "round %d",
-                      round);
-        for (const std::uint8_t one : found) ++(one ? met : lone);
-    }
-    ck_assert_uint_gt(lone, 10000);
-    ck_assert_uint_gt(met, 10000);
-    ck_assert_uint_lt(given_up, 200);
-}
-END_TEST
-
 // ---- what it takes --------------------------------------------------------------------------------
 
 // Looks at pairs and boxes, and bytes, of each box. No pair is wanted.
@@ -265,5 +216,5 @@ END_TEST
 SUITE(body_pairs) {
     TCase* tests = add_case(suite, "body_pairs");
     tcase_add_each(tests, pairs_are_all_that_overlap, pairs_are_those_that_are_wanted,
-                   met_boxes_are_those_of_pairs, scaffold, one_place);
+                   scaffold, one_place);
 }
