@@ -139,38 +139,19 @@ void make_boundary(std::span<const Tet> tets, std::uint32_t vertex_count, Positi
         out = std::move(made);
         return;
     }
-    Array<std::uint8_t> negative = look_at_tets(tets, vertex_count, positions, tiles, made);
-    const auto close = [&](std::span<const Tet> of, const MatchedFacets& matched,
-                           std::span<std::uint8_t> sign) {
-        return make_triangles(of, sign, matched, made) ||
-               (agree_with_neighbours(of, matched, sign) && make_triangles(of, sign, matched, made));
-    };
-    const auto for_places = [&](auto&& visit) { // of tets in tiles
-        for (std::size_t tile = 0; tile < tiles.tiles.size(); ++tile)
-            for (std::uint32_t i = 0; i < tiles.tiles[tile].tet_count; ++i)
-                visit(tile, i, tiles.tets[tiles.tiles[tile].first_tet + i]);
-    };
-    if (facets) {
-        made.is_closed = close(tets, *facets, negative);
-    } else { // in the order of the tiles, in which neighbours are near each other in memory
-        Array<Tet> ordered(memory);
-        Array<std::uint8_t> signs(memory);
-        ordered.reserve(tets.size());
-        signs.reserve(tets.size());
-        for_places([&](std::size_t, std::uint32_t, std::uint32_t t) {
-            ordered.push_back(tets[t]);
-            signs.push_back(negative[t]);
-        });
-        MatchedFacets matched(memory);
-        match_facets(ordered, vertex_count, matched);
-        made.is_closed = close(ordered, matched, signs);
-        auto sign = signs.begin();
-        for_places([&](std::size_t, std::uint32_t, std::uint32_t t) { negative[t] = *sign++; });
+    MatchedFacets matched(memory);
+    if (!facets) {
+        match_facets(tets, vertex_count, matched);
+        facets = &matched;
     }
+    Array<std::uint8_t> negative = look_at_tets(tets, vertex_count, positions, tiles, made);
+    made.is_closed =
+        make_triangles(tets, negative, *facets, made) ||
+        (agree_with_neighbours(tets, *facets, negative) && make_triangles(tets, negative, *facets, made));
     made.mirrored.assign(made.is_closed ? tiles.tiles.size() : 0, 0);
-    for_places([&](std::size_t tile, std::uint32_t i, std::uint32_t t) {
-        if (made.is_closed) made.mirrored[tile] |= std::uint64_t{negative[t]} << i;
-    });
+    for (std::size_t tile = 0; tile < made.mirrored.size(); ++tile)
+        for (std::uint32_t i = 0; i < tiles.tiles[tile].tet_count; ++i)
+            made.mirrored[tile] |= std::uint64_t{negative[tiles.tets[tiles.tiles[tile].first_tet + i]]} << i;
     out = made.is_closed ? std::move(made) : Boundary(memory);
 }
 

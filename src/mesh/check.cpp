@@ -5,13 +5,11 @@
 #include "mesh/highest_index.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cinttypes>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <limits>
 
 namespace vox {
 

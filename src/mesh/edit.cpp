@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cinttypes>
 #include <cstring>
-#include <limits>
 #include <utility>
 
 namespace vox {
@@ -66,7 +65,7 @@ void Mesh::switch_off(std::uint32_t tet, Array<TetChange>& changes) noexcept {
     MeshEdits& edits = edits_;
     if (edits.off[tet]) return;
     changes.push_back({tet, true, false, tets_[tet], {}});
-    prepared_.tets[tet] = hidden(tets_[tet]);
+    own_tets_[tet] = hidden(tets_[tet]);
     edits.off.add(tet);
 }
 
@@ -81,7 +80,7 @@ void Mesh::set_tets_enabled(std::span<const std::uint32_t> tets, bool enabled) {
     for (const std::uint32_t tet : tets) {
         if (!enabled) switch_off(tet, changes);
         if (!enabled || !edits_.off[tet]) continue;
-        prepared_.tets[tet] = edits_.given[tet]; // the mesh's own, as one of them is off
+        own_tets_[tet] = edits_.given[tet]; // the mesh's own, as one of them is off
         edits_.off.remove(tet);
         changes.push_back({tet, false, true, {}, tets_[tet]});
     }
@@ -247,7 +246,7 @@ void Mesh::remove_vertices(std::span<const std::uint32_t> vertices) {
 
     for (const std::uint32_t v : vertices) {
         edits.removed_vertices.add(v);
-        if (has_tiles_) remove_loose(prepared_.tiled.boundary, v);
+        if (has_tiles_) remove_loose(tiled_.boundary, v);
     }
 }
 
@@ -284,7 +283,7 @@ MeshEdits& Mesh::list_tets_of() {
 }
 
 void Mesh::invalidate_tiles() noexcept {
-    prepared_.tiled = TiledMesh(memory());
+    tiled_ = TiledMesh(memory());
     has_tiles_ = false;
 }
 
@@ -309,11 +308,11 @@ void Mesh::apply(std::span<const TetChange> changes) noexcept {
     try {
         if (has_tets_of) apply_changes(changes, edits_.tets_of);
         const IndexLists& tets_of = list_tets_of().tets_of;
-        if (has_tiles_ && !repair(prepared_.tiled, body(VOX_NULL_BODY), changes, tets_of)) invalidate_tiles();
+        if (has_tiles_ && !repair(tiled_, body(VOX_NULL_BODY), changes, tets_of)) invalidate_tiles();
         if (has_topology_) {
             check_tet_count(tets_.size());
             ++topology_version_;
-            repair_topology(tets_, tets_of, changes, prepared_.topology);
+            repair_topology(tets_, tets_of, changes, topology_);
         }
         if (has_rings) self_filter_.rings.repair(tets_, tets_of, changes, filter_.self_rings);
     } catch (...) { // out of memory, as a rule
@@ -325,9 +324,8 @@ void Mesh::apply_vertices(std::uint32_t count_before) noexcept {
     sample_.reset();
     try {
         if (edits_.has_tets_of) edits_.tets_of.resize(vertex_count_);
-        if (has_tiles_ && !vox::add_vertices(prepared_.tiled, count_before, vertex_count_))
-            invalidate_tiles();
-        if (has_topology_) add_vertices(vertex_count_, prepared_.topology);
+        if (has_tiles_ && !vox::add_vertices(tiled_, count_before, vertex_count_)) invalidate_tiles();
+        if (has_topology_) add_vertices(vertex_count_, topology_);
         if (has_rings_ && filter_.self_rings != 0) self_filter_.rings.add_vertices(vertex_count_);
     } catch (...) {
         invalidate_prepared();

@@ -31,29 +31,28 @@ Mesh::Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter
 // For changes: a copy of those that are borrowed.
 Array<Tet>& Mesh::own_tets() {
     if (borrows_tets()) {
-        prepared_.tets.assign(tets_.begin(), tets_.end());
-        tets_ = prepared_.tets;
+        own_tets_.assign(tets_.begin(), tets_.end());
+        tets_ = own_tets_;
     }
-    return prepared_.tets;
+    return own_tets_;
 }
 
 void Mesh::make_tiles() {
     if (has_tiles_) return;
-    if (vertex_count_ > 0)
-        make_tiled_mesh(body(VOX_NULL_BODY), prepared_.tiled, has_topology_ ? &prepared_.topology : nullptr);
+    if (vertex_count_ > 0) make_tiled_mesh(body(VOX_NULL_BODY), tiled_, has_topology_ ? &topology_ : nullptr);
     has_tiles_ = true;
     ++tiles_version_;
 }
 
 void Mesh::make_topology() {
     if (has_topology_) return;
-    if (!tets_.empty()) vox::make_topology(tets(), vertex_count_, prepared_.topology);
+    if (!tets_.empty()) vox::make_topology(tets(), vertex_count_, topology_);
     has_topology_ = true;
     ++topology_version_;
 }
 
 void Mesh::drop_topology() noexcept {
-    prepared_.topology = Topology(memory());
+    topology_ = Topology(memory());
     has_topology_ = false;
     ++topology_version_;
 }
@@ -163,7 +162,7 @@ void Mesh::set_filter(const vox_filter& filter) {
     if (has_tiles_ && first_self) {
         Body with_self = body(VOX_NULL_BODY);
         with_self.self_collision = true;
-        make_tiled_mesh(with_self, prepared_.tiled, has_topology_ ? &prepared_.topology : nullptr);
+        make_tiled_mesh(with_self, tiled_, has_topology_ ? &topology_ : nullptr);
         ++tiles_version_;
     }
     if (!rest.empty()) self_filter_.rest = std::move(rest);

@@ -37,8 +37,8 @@ class Mesh {
 public:
     // An empty slot's mesh.
     explicit Mesh(std::pmr::memory_resource* memory) noexcept
-        : prepared_(memory), edits_(memory), owned_(memory), self_filter_(memory), exceptions_(memory),
-          filter_(checked_filter({})) {}
+        : topology_(memory), tiled_(memory), own_tets_(memory), edits_(memory), owned_(memory),
+          self_filter_(memory), exceptions_(memory), filter_(checked_filter({})) {}
     // Of a checked desc, whose arrays it copies or borrows as the flags say. `view` is what check_mesh() made
     // of it; `filter` is used in place of desc.filter.
     Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter,
@@ -49,7 +49,7 @@ public:
 
     // Makes the topology, unless that is done.
     void make_topology();
-    const Topology& topology() const noexcept { return prepared_.topology; }
+    const Topology& topology() const noexcept { return topology_; }
     bool has_topology() const noexcept { return has_topology_; }
     // Grows when the topology is made, changed or dropped.
     std::uint32_t topology_version() const noexcept { return topology_version_; }
@@ -61,7 +61,7 @@ public:
 
     // Makes the tiles, unless that is done; needs positions.
     void make_tiles();
-    const TiledMesh& tiled() const noexcept { return prepared_.tiled; }
+    const TiledMesh& tiled() const noexcept { return tiled_; }
     // Grows when the tiles are made anew; at least 1 once they are made.
     std::uint32_t tiles_version() const noexcept { return tiles_version_; }
     // Null before they are made.
@@ -157,7 +157,7 @@ private:
     // Edits.
     std::pmr::memory_resource* memory() const noexcept { return owned_.memory(); }
     std::span<const Tet> tets() const noexcept { return tets_; }
-    bool borrows_tets() const noexcept { return !tets_.empty() && prepared_.tets.data() != tets_.data(); }
+    bool borrows_tets() const noexcept { return !tets_.empty() && own_tets_.data() != tets_.data(); }
     void check_tets(std::span<const std::uint32_t> tets) const;
     void check_corners(std::uint32_t tet, const Tet& corners) const;
     void switch_off(std::uint32_t tet, Array<TetChange>& changes) noexcept;
@@ -169,17 +169,10 @@ private:
     void invalidate_tiles() noexcept;
     void invalidate_prepared() noexcept;
 
-    // What is prepared of the tetrahedra while they stay as they are.
-    struct PreparedTets {
-        explicit PreparedTets(std::pmr::memory_resource* memory) noexcept
-            : tets(memory), topology(memory), tiled(memory) {}
-
-        Array<Tet> tets; // empty where those of the caller are borrowed
-        Topology topology;
-        TiledMesh tiled;
-    };
-
-    PreparedTets prepared_;
+    // Prepared of the tetrahedra as they are.
+    Topology topology_;
+    TiledMesh tiled_;
+    Array<Tet> own_tets_; // empty where those of the caller are borrowed
     MeshEdits edits_;
     Array<double> owned_; // positions, packed in their format, unless they are borrowed
     Lazy<MeshSample> sample_;
@@ -190,7 +183,7 @@ private:
     // From here on what each step looks at.
     std::array<double, 12> transform_{};
     Positions positions_; // without the transform
-    // As the stages see them: those that are off name one vertex four times. The caller's, or in prepared_.
+    // As the stages see them: those that are off name one vertex four times. The caller's, or in own_tets_.
     std::span<const Tet> tets_;
     std::uint32_t vertex_count_ = 0;
     std::uint32_t tiles_version_ = 0;
