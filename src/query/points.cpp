@@ -10,7 +10,6 @@
 #include "exact/predicates.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <numeric>
 #include <tuple>

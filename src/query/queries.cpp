@@ -9,7 +9,6 @@
 #include "base/vectors.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace vox {
 

@@ -174,7 +174,7 @@ START_TEST(boxes_face_to_face) {
 }
 END_TEST
 
-/* Small bodies that nobody meets are left out of steps: not those near others. */
+/* Small bodies that are near each other and do not touch. */
 START_TEST(many_small_bodies) {
     enum { small = 200 };
     static const uint32_t tet[4] = {0, 1, 2, 3};
