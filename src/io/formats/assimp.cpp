@@ -1,4 +1,4 @@
-// Reads surfaces of every format that assimp knows. Node transforms are applied, polygons split into
+// Reads surfaces of every format that assimp knows. Transforms of nodes are applied, polygons split into
 // triangles, and the meshes of a scene joined unless a single one is requested.
 #include "io/formats/placement.hpp"
 #include "io/formats/readers.hpp"

@@ -140,9 +140,9 @@ void refuse_other_content(const File& file) {
         if (text.starts_with(html)) refuse("expected a mesh, found a web page");
 }
 
-void Skipped::add(Cell cell, const char* name, std::uint64_t number) {
+void Skipped::add(CellKind cell, const char* name, std::uint64_t number) {
     elements += number;
-    if (cell != Cell::volume) return;
+    if (cell != CellKind::volume) return;
     const auto is_it = [&](const auto& kind) { return kind.first == name; };
     const auto found = std::find_if(volumes.begin(), volumes.end(), is_it);
     if (found != volumes.end())

@@ -74,7 +74,7 @@ private:
         document_.check_number("a node", number, contents_.nodes.size());
         if (visited_[number]) document_.fail(format("node %u is in the scene twice", number));
         visited_[number] = true;
-        const gltf::Node& node = contents_.nodes[number];
+        const gltf::SceneNode& node = contents_.nodes[number];
         const Placement world =
             parent.of(node.placement == gltf::none ? Placement() : contents_.placements[node.placement]);
         if (node.mesh != gltf::none) add_mesh(node.mesh, world);

@@ -40,7 +40,7 @@ struct Primitive {
     std::uint32_t mode = 4;
 };
 
-struct Node {
+struct SceneNode {
     std::uint32_t mesh = none;
     std::uint32_t placement = none; // none: that of its parent
     std::uint32_t children_end = 0; // they begin where those of the node before end
@@ -52,7 +52,7 @@ struct Node {
 struct Contents {
     std::uint32_t scene = 0;
     std::deque<std::uint32_t> roots, roots_end; // nodes, and where those of each scene end
-    std::deque<Node> nodes;
+    std::deque<SceneNode> nodes;
     std::deque<std::uint32_t> children;
     std::deque<Placement> placements;
     std::deque<std::uint32_t> first_primitive; // of each mesh

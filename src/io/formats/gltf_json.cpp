@@ -182,7 +182,7 @@ private:
     }
 
     void add_node() {
-        Node& node = out_.nodes.emplace_back();
+        SceneNode& node = out_.nodes.emplace_back();
         node.mesh = index("mesh", "the number of a mesh");
         node.children_end = static_cast<std::uint32_t>(out_.children.size());
         double matrix[16], translation[3] = {0, 0, 0}, rotation[4] = {0, 0, 0, 1}, scale[3] = {1, 1, 1};

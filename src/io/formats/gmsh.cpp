@@ -8,13 +8,13 @@ namespace {
 
 struct ElementType {
     std::uint8_t nodes;
-    Cell cell;
+    CellKind cell;
     const char* name;
 };
 
 // An element type of the manual; `nodes` is 0 for a number that is not in it.
 const ElementType& element_type(std::int64_t type) {
-    using enum Cell;
+    using enum CellKind;
     static constexpr ElementType types[] = {{0, other, ""},
                                             {2, other, "lines"},
                                             {3, triangle, "triangles"},
@@ -265,7 +265,7 @@ private:
 
     void text_nodes(const ElementType& type) {
         std::vector<std::uint32_t>* const corners = corners_of(type, 1);
-        const int wanted = type.cell == Cell::triangle ? 3 : 4;
+        const int wanted = type.cell == CellKind::triangle ? 3 : 4;
         if (!corners) return in_.skip_line();
         for (int i = 0; i < type.nodes; ++i) {
             const auto number = in_.integer<std::int64_t>("a node number");
@@ -301,7 +301,7 @@ private:
             in_.take(count * size, "elements");
             return;
         }
-        const std::size_t wanted = type.cell == Cell::triangle ? 3 : 4;
+        const std::size_t wanted = type.cell == CellKind::triangle ? 3 : 4;
         for (std::uint64_t e = 0; e < count; ++e) {
             const char* const nodes = in_.take(size, "an element") + before;
             for (std::size_t i = 0; i < wanted; ++i)
@@ -326,7 +326,7 @@ private:
                 in_.fail("expected %llu elements in all, found a block of %llu after %llu", llu(total),
                          llu(count), llu(done));
             done += count;
-            if (type.cell == Cell::tet || type.cell == Cell::high_tet) {
+            if (type.cell == CellKind::tet || type.cell == CellKind::high_tet) {
                 const std::size_t line = binary_ ? 20 : 9; // at least
                 const std::size_t need =
                     data_.tets.size() + 4 * std::min<std::uint64_t>(count, in_.remaining() / line);
@@ -403,9 +403,9 @@ private:
 
     // Counts `count` elements of a type and returns where their corners go, or null if they are left out.
     std::vector<std::uint32_t>* corners_of(const ElementType& type, std::uint64_t count) {
-        if (type.cell == Cell::high_tet) data_.second_order_tets += count;
-        if (type.cell == Cell::tet || type.cell == Cell::high_tet) return &data_.tets;
-        if (type.cell == Cell::triangle) return &data_.triangles;
+        if (type.cell == CellKind::high_tet) data_.second_order_tets += count;
+        if (type.cell == CellKind::tet || type.cell == CellKind::high_tet) return &data_.tets;
+        if (type.cell == CellKind::triangle) return &data_.triangles;
         skipped_.add(type.cell, type.name, count);
         return nullptr;
     }

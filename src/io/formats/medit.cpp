@@ -7,20 +7,20 @@ namespace {
 struct Section {
     const char* keyword;
     int nodes;
-    Cell cell;
+    CellKind cell;
     const char* name;
 };
 
-constexpr Section sections[] = {{"Tetrahedra", 4, Cell::tet, "tetrahedra"},
-                                {"TetrahedraP2", 10, Cell::high_tet, "tetrahedra of ten nodes"},
-                                {"Triangles", 3, Cell::triangle, "triangles"},
-                                {"TrianglesP2", 6, Cell::triangle, "triangles of six nodes"},
-                                {"Edges", 2, Cell::other, "edges"},
-                                {"Quadrilaterals", 4, Cell::other, "quadrilaterals"},
-                                {"Hexahedra", 8, Cell::volume, "hexahedra"},
-                                {"Hexaedra", 8, Cell::volume, "hexahedra"},
-                                {"Prisms", 6, Cell::volume, "prisms"},
-                                {"Pyramids", 5, Cell::volume, "pyramids"}};
+constexpr Section sections[] = {{"Tetrahedra", 4, CellKind::tet, "tetrahedra"},
+                                {"TetrahedraP2", 10, CellKind::high_tet, "tetrahedra of ten nodes"},
+                                {"Triangles", 3, CellKind::triangle, "triangles"},
+                                {"TrianglesP2", 6, CellKind::triangle, "triangles of six nodes"},
+                                {"Edges", 2, CellKind::other, "edges"},
+                                {"Quadrilaterals", 4, CellKind::other, "quadrilaterals"},
+                                {"Hexahedra", 8, CellKind::volume, "hexahedra"},
+                                {"Hexaedra", 8, CellKind::volume, "hexahedra"},
+                                {"Prisms", 6, CellKind::volume, "prisms"},
+                                {"Pyramids", 5, CellKind::volume, "pyramids"}};
 
 bool is_keyword(std::string_view word) {
     return !word.empty() && ((word[0] >= 'A' && word[0] <= 'Z') || (word[0] >= 'a' && word[0] <= 'z'));
@@ -93,8 +93,8 @@ private:
     void read_elements(const Section& section) {
         const auto count =
             in_.count("number of elements", 2 * static_cast<std::size_t>(section.nodes + 1), max_count);
-        const bool tets = section.cell == Cell::tet || section.cell == Cell::high_tet;
-        const int wanted = tets ? 4 : section.cell == Cell::triangle ? 3 : 0;
+        const bool tets = section.cell == CellKind::tet || section.cell == CellKind::high_tet;
+        const int wanted = tets ? 4 : section.cell == CellKind::triangle ? 3 : 0;
         std::vector<std::uint32_t>& corners = tets ? data_.tets : data_.triangles;
         if (wanted) corners.reserve(corners.size() + static_cast<std::size_t>(wanted) * count);
         for (std::uint64_t e = 0; e < count; ++e) {
@@ -112,7 +112,7 @@ private:
             integer<std::int64_t>("a reference");
         }
         if (!wanted) skipped_.add(section.cell, section.name, count);
-        if (section.cell == Cell::high_tet) data_.second_order_tets += count;
+        if (section.cell == CellKind::high_tet) data_.second_order_tets += count;
     }
 
     const File& file_;

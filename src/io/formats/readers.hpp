@@ -52,7 +52,7 @@ void refuse_other_content(const File& file);
 // ---- shared by the readers ----
 
 // How a cell of a mixed mesh is treated.
-enum class Cell : std::uint8_t {
+enum class CellKind : std::uint8_t {
     tet,      // has four nodes
     high_tet, // has more nodes, of which the corners come first and are used
     triangle, // has three nodes, or more with the corners first
@@ -62,7 +62,7 @@ enum class Cell : std::uint8_t {
 
 // Counts skipped cells, and by name those that are volume elements.
 struct Skipped {
-    void add(Cell cell, const char* name, std::uint64_t number);
+    void add(CellKind cell, const char* name, std::uint64_t number);
 
     std::vector<std::pair<std::string, std::uint64_t>> volumes;
     std::uint64_t elements = 0;

@@ -58,7 +58,7 @@ MeshData read_vega(const File& file) {
                 }
                 in.line_end();
             }
-            if (!tets) skipped.add(Cell::volume, "cubes", count);
+            if (!tets) skipped.add(CellKind::volume, "cubes", count);
         }
         // Skips the lines of sections that are not needed (*MATERIAL, *SET ...).
         const bool needed = keyword == "*VERTICES" || keyword == "*ELEMENTS";

@@ -6,26 +6,26 @@ VtkCellType vtk_cell_type(std::uint64_t type) {
         unsigned type;
         VtkCellType is;
     };
-    static constexpr Row rows[] = {{5, {Cell::triangle, 3, "triangle"}},
-                                   {22, {Cell::triangle, 6, "quadratic triangle"}},
-                                   {34, {Cell::triangle, 7, "biquadratic triangle"}},
-                                   {69, {Cell::triangle, 3, "Lagrange triangle"}},
-                                   {10, {Cell::tet, 4, "tetrahedron"}},
-                                   {24, {Cell::high_tet, 10, "quadratic tetrahedron"}},
-                                   {71, {Cell::high_tet, 4, "Lagrange tetrahedron"}},
-                                   {78, {Cell::high_tet, 4, "Bezier tetrahedron"}},
-                                   {11, {Cell::volume, 0, "voxels"}},
-                                   {12, {Cell::volume, 0, "hexahedra"}},
-                                   {13, {Cell::volume, 0, "wedges"}},
-                                   {14, {Cell::volume, 0, "pyramids"}},
-                                   {15, {Cell::volume, 0, "pentagonal prisms"}},
-                                   {16, {Cell::volume, 0, "hexagonal prisms"}},
-                                   {42, {Cell::volume, 0, "polyhedra"}}};
+    static constexpr Row rows[] = {{5, {CellKind::triangle, 3, "triangle"}},
+                                   {22, {CellKind::triangle, 6, "quadratic triangle"}},
+                                   {34, {CellKind::triangle, 7, "biquadratic triangle"}},
+                                   {69, {CellKind::triangle, 3, "Lagrange triangle"}},
+                                   {10, {CellKind::tet, 4, "tetrahedron"}},
+                                   {24, {CellKind::high_tet, 10, "quadratic tetrahedron"}},
+                                   {71, {CellKind::high_tet, 4, "Lagrange tetrahedron"}},
+                                   {78, {CellKind::high_tet, 4, "Bezier tetrahedron"}},
+                                   {11, {CellKind::volume, 0, "voxels"}},
+                                   {12, {CellKind::volume, 0, "hexahedra"}},
+                                   {13, {CellKind::volume, 0, "wedges"}},
+                                   {14, {CellKind::volume, 0, "pyramids"}},
+                                   {15, {CellKind::volume, 0, "pentagonal prisms"}},
+                                   {16, {CellKind::volume, 0, "hexagonal prisms"}},
+                                   {42, {CellKind::volume, 0, "polyhedra"}}};
     for (const Row& row : rows)
         if (row.type == type) return row.is;
     for (const unsigned volume : {25u, 26u, 27u, 29u, 32u, 33u, 37u, 41u, 72u, 73u, 74u, 79u, 80u, 81u})
-        if (type == volume) return {Cell::volume, 0, "cells of higher order"};
-    return {Cell::other, 0, "other cells"};
+        if (type == volume) return {CellKind::volume, 0, "cells of higher order"};
+    return {CellKind::other, 0, "other cells"};
 }
 
 std::optional<NumberType> vtk_number(std::string_view name) {

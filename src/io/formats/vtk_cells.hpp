@@ -9,7 +9,7 @@
 namespace vox::io {
 
 struct VtkCellType {
-    Cell cell;
+    CellKind cell;
     std::uint64_t least_points; // 0 for cells that are skipped
     const char* name;
 };
@@ -30,16 +30,16 @@ void take_vtk_cells(const std::vector<std::uint64_t>& ends, const std::vector<st
                            connectivity.size(), llu(ends[c]), llu(start)));
         const VtkCellType type = vtk_cell_type(types[c]);
         const std::uint64_t points = ends[c] - start;
-        if (type.cell == Cell::volume || type.cell == Cell::other) {
+        if (type.cell == CellKind::volume || type.cell == CellKind::other) {
             skipped.add(type.cell, type.name, 1);
             continue;
         }
-        const std::uint64_t corners = type.cell == Cell::triangle ? 3 : 4;
+        const std::uint64_t corners = type.cell == CellKind::triangle ? 3 : 4;
         if (points < type.least_points || (points > type.least_points && type.least_points == corners))
             fail(c, format("expected %llu points (%s), found %llu", llu(type.least_points), type.name,
                            llu(points)));
-        if (type.cell == Cell::high_tet) ++data.second_order_tets;
-        std::vector<std::uint32_t>& out = type.cell == Cell::triangle ? data.triangles : data.tets;
+        if (type.cell == CellKind::high_tet) ++data.second_order_tets;
+        std::vector<std::uint32_t>& out = type.cell == CellKind::triangle ? data.triangles : data.tets;
         for (std::uint64_t i = 0; i < corners; ++i) {
             const std::uint64_t point = connectivity[start + i];
             if (point >= vertex_count)

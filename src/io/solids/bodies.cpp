@@ -28,18 +28,18 @@ MeshData make(const Eigen::Vector3d& half, double cell, Depth&& depth) {
                 else
                     runs.push_back({y, z, i, i});
             }
-    const Body body = {frame, NodeSet(frame, std::move(runs)), [&](const Node& node, unsigned neighbour) {
-                           const Node& step = neighbour_steps[neighbour];
-                           double in = 0, out = 1;
-                           for (int i = 0; i < 52; ++i) {
-                               const double middle = (in + out) / 2;
-                               const Point p =
-                                   frame.position(node.x + middle * step.x, node.y + middle * step.y,
-                                                  node.z + middle * step.z);
-                               (depth(p) > 0 ? in : out) = middle;
-                           }
-                           return out;
-                       }};
+    const SolidShape body = {
+        frame, NodeSet(frame, std::move(runs)), [&](const Node& node, unsigned neighbour) {
+            const Node& step = neighbour_steps[neighbour];
+            double in = 0, out = 1;
+            for (int i = 0; i < 52; ++i) {
+                const double middle = (in + out) / 2;
+                const Point p = frame.position(node.x + middle * step.x, node.y + middle * step.y,
+                                               node.z + middle * step.z);
+                (depth(p) > 0 ? in : out) = middle;
+            }
+            return out;
+        }};
     MeshData mesh = stuff(body, 0, VOX_MAX_TETS, Progress());
     if (mesh.tets.empty()) refuse(format("no tet fits into the body with a cell of %g", cell));
     return mesh;

@@ -23,7 +23,7 @@ constexpr std::uint32_t none = NodeSet::none;
 
 class Stuffing {
 public:
-    Stuffing(const Body& body, std::uint64_t max_tets, const Progress& progress)
+    Stuffing(const SolidShape& body, std::uint64_t max_tets, const Progress& progress)
         : body_(body), max_tets_(max_tets), progress_(progress),
           nodes_(with_neighbours(body.frame, body.inside)), sides_(nodes_.size(), Side::outside),
           fringe_(nodes_.size(), none), numbers_(nodes_.size(), none) {}
@@ -254,7 +254,7 @@ private:
         return cut.vertex;
     }
 
-    const Body& body_;
+    const SolidShape& body_;
     const std::uint64_t max_tets_;
     const Progress& progress_;
     const NodeSet nodes_; // the nodes inside, and their neighbours
@@ -278,7 +278,8 @@ void check_tet_count(const NodeSet& inside, const Frame& frame, std::uint32_t co
             inside.size(), llu(max_tets), 2 * frame.half_cell);
 }
 
-MeshData stuff(const Body& body, std::uint32_t coarsen, std::uint64_t max_tets, const Progress& progress) {
+MeshData stuff(const SolidShape& body, std::uint32_t coarsen, std::uint64_t max_tets,
+               const Progress& progress) {
     check_tet_count(body.inside, body.frame, coarsen, max_tets);
     MeshData mesh = Stuffing(body, max_tets, progress).run(coarsen);
     progress.report(1);

@@ -49,9 +49,9 @@ MeshData run(const Attempt& attempt, const Progress& progress) {
         if (doubtful > most_doubtful) refuse_open(lines, doubtful);
         check_tet_count(inside, frame, coarsen, desc.max_tets);
         lines.cast_rest(progress.part(0, 0.3));
-        const Body body = {frame, std::move(inside), [&lines](const Node& node, unsigned neighbour) {
-                               return lines.leaves(node, neighbour);
-                           }};
+        const SolidShape body = {frame, std::move(inside), [&lines](const Node& node, unsigned neighbour) {
+                                     return lines.leaves(node, neighbour);
+                                 }};
         mesh = stuff(body, coarsen, desc.max_tets, progress.part(0.3, 1));
     }
     if (open)
