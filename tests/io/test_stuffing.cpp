@@ -82,8 +82,8 @@ double extreme(Random& random, unsigned neighbour) {
     return kind < 0.6 ? alpha + aside : 1 - alpha - aside;
 }
 
-Body random_body(Random& random, std::int32_t size, double share) {
-    Body body;
+SolidShape random_body(Random& random, std::int32_t size, double share) {
+    SolidShape body;
     const double s = size;
     body.frame = make_frame({Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(s, s, s)}, 1);
     std::vector<Run> runs;
@@ -100,7 +100,7 @@ Body random_body(Random& random, std::int32_t size, double share) {
 START_TEST(random_lattices) {
     Random random{std::mt19937(static_cast<std::mt19937::result_type>(_i + 1))};
     const std::array<double, 4> shares = {0.1, 0.3, 0.5, 0.8};
-    const Body body = random_body(random, 10, shares[static_cast<std::size_t>(_i % 4)]);
+    const SolidShape body = random_body(random, 10, shares[static_cast<std::size_t>(_i % 4)]);
     const MeshData mesh = stuff(body, 0, VOX_MAX_TETS, vox::io::Progress());
     ck_assert(!mesh.tets.empty());
     const Facts facts = check(mesh);
@@ -113,7 +113,7 @@ END_TEST
 // A solid block with a few nodes knocked out: the octree's levels end around them.
 START_TEST(coarse_inside) {
     Random random{std::mt19937(static_cast<std::mt19937::result_type>(_i + 1))};
-    Body body = random_body(random, 22, _i == 0 ? 1 : 0.9995);
+    SolidShape body = random_body(random, 22, _i == 0 ? 1 : 0.9995);
     body.leaves = [](const Node&, unsigned) { return 0.5; };
     const Facts fine = check(stuff(body, 0, VOX_MAX_TETS, Progress()));
     std::size_t before = SIZE_MAX;
