@@ -246,20 +246,17 @@ bool is_of_used(const Bounds& bounds, const Body& body) {
     return true;
 }
 
-// Scenes of at most so many tetrahedra are measured in full, which takes longer than samples of 20,000. Of
-// larger ones that are not a grid's, tetrahedra are sampled, and vertices whose edges and facets are.
-constexpr std::uint64_t measured_tets = 1500;
 constexpr double everything = 1e18;
+
+// In a scene that is not a grid's and has more tetrahedra than are measured in full, tetrahedra are sampled,
+// and vertices whose edges and facets are listed.
 
 std::uint64_t some_vertices(std::uint64_t tets) { return std::clamp<std::uint64_t>(tets / 100, 192, 1024); }
 std::uint64_t some_tets(std::uint64_t tets) { return std::clamp<std::uint64_t>(tets / 32, 640, 4096); }
-std::size_t most_measured(std::uint64_t tets) {
-    return static_cast<std::size_t>(std::min(tets, std::max(some_tets(tets), measured_tets)));
-}
 
-// Of a body in such a scene: its part of the scene's tetrahedra.
-SampleSize sample_size(const Body& body, const vox_geometry& stats) {
-    if (stats.tets <= measured_tets) return {body.vertex_count, body.tets.size()};
+// A body's part of the sample of such a scene.
+SampleSize sample_size(const Body& body, const vox_geometry& stats, std::uint64_t most_whole) {
+    if (stats.tets <= most_whole) return {body.vertex_count, body.tets.size()};
     const auto part = [&](std::uint64_t of_all) {
         const double own = static_cast<double>(body.tets.size()) / static_cast<double>(stats.tets);
         return static_cast<std::size_t>(static_cast<double>(of_all) * own) + 8;
@@ -269,7 +266,7 @@ SampleSize sample_size(const Body& body, const vox_geometry& stats) {
 
 } // namespace
 
-Geometry measure(const CellSizeScene& scene) {
+Geometry measure(const CellSizeScene& scene, std::uint64_t most_whole) {
     Geometry result{};
     vox_geometry& stats = result.stats;
     for (const Body& body : scene.bodies) {
@@ -280,8 +277,10 @@ Geometry measure(const CellSizeScene& scene) {
     const double samples = kept ? static_cast<double>(sampled_tets(stats.tets)) : everything;
 
     Means means(scene.memory);
-    means.box_sides.reserve(std::max(sampled_tets(stats.tets), most_measured(stats.tets)) +
-                            scene.bodies.size());
+    const std::uint64_t measured = kept                       ? sampled_tets(stats.tets)
+                                   : stats.tets <= most_whole ? stats.tets
+                                                              : some_tets(stats.tets);
+    means.box_sides.reserve(static_cast<std::size_t>(measured) + 9 * scene.bodies.size());
     Array<MeshSample> made(scene.memory);
     made.reserve(kept ? 0 : scene.bodies.size());
     const auto sample_of = [&](std::size_t b) -> const MeshSample& {
@@ -291,7 +290,7 @@ Geometry measure(const CellSizeScene& scene) {
     bool whole = !kept; // all edges and facets are looked at
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
         const Body& body = scene.bodies[b];
-        if (!kept) made.push_back(make_sample(body, sample_size(body, stats), scene.memory));
+        if (!kept) made.push_back(make_sample(body, sample_size(body, stats, most_whole), scene.memory));
         const MeshSample& sample = sample_of(b);
         stats.edges += sample.edge_count;
         stats.facets += sample.facet_count;

@@ -26,7 +26,7 @@ void CellSizeScene::prepare(vox_cost_model model) {
     if (!meshes.empty()) budget = quick(model, tets);
     if (model != VOX_COST_MODEL_FAST || (last_step && moved_since_last_step())) last_step = nullptr;
     if (model == VOX_COST_MODEL_FAST && !last_step) find_near_bodies();
-    geometry = measure(*this);
+    geometry = measure(*this, model == VOX_COST_MODEL_PAPER ? whole_for_paper : whole_for_rules);
 }
 
 // A body that moves within its box and reaches no further than before is close enough to where it was.

@@ -74,13 +74,18 @@ private:
     fast::BroadPhase broad_phase_;
 };
 
-// Measures the positions as they are now: all of a small scene, samples of a large one (mesh/sample.hpp).
-// Then the counts of edges and facets and the means are estimates.
+// Scenes of at most so many tetrahedra are measured as a whole: for the paper's model, whose z is defined by
+// the means over all edges and facets, and for the others, which only compare with rules of thumb.
+inline constexpr std::uint64_t whole_for_paper = 200'000, whole_for_rules = 1500;
+
+// Measures the positions as they are now: of all tetrahedra where there are at most `most_whole` and the
+// scene is not a grid's, else of samples (mesh/sample.hpp). Then the counts of edges and facets and the means
+// are estimates.
 //
 // The bounds are those of the vertices that tetrahedra use, and of all vertices for a body without
 // tetrahedra; every vertex must be finite all the same. A tetrahedron that names a vertex twice has no edges
 // and facets of its own but counts in the means over tetrahedra; one that is off does not count. Means of
 // nothing are 0. Throws Error(NON_FINITE) naming mesh_id and vertex.
-Geometry measure(const CellSizeScene& scene);
+Geometry measure(const CellSizeScene& scene, std::uint64_t most_whole);
 
 } // namespace vox
