@@ -22,6 +22,11 @@ inline std::uint64_t next_below(std::uint64_t& state, std::uint64_t below) noexc
                                       static_cast<double>(below));
 }
 
+// A random number from 0 to 1, 1 excluded.
+inline double next_unit(std::uint64_t& state) noexcept {
+    return static_cast<double>(next_random(state) >> 11) * 0x1p-53;
+}
+
 // The place within a part of a list for the next part: its multiples are spread evenly over 0 to 1 (H. Weyl,
 // 1916).
 inline double next_place(double place) noexcept {

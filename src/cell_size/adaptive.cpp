@@ -27,15 +27,14 @@ constexpr double far_off = 1.5;
 // factor of two off (a choice finds little in the caches), and in a short run exceeded by one choice, so less
 // than the hundredth that is promised.
 constexpr double time_share = 0.003;
-// Nanoseconds of a choice: for each vertex, for each tetrahedron sampled, for each pair of a sampled lookup
-// and a point near it or a far one, and for each lookup whose lists are visited.
-constexpr double vertex_ns = 20, tet_ns = 50, pair_ns = 10, lists_ns = 20000;
+// Nanoseconds of a choice: for each vertex, for each tetrahedron and vertex of the samples, and for each box
+// that is looked at with what is around it.
+constexpr double vertex_ns = 4, tet_ns = 50, held_ns = 100, chosen_ns = 3000;
 
 double choice_ns(double vertices, double tets, const SampleBudget& budget) {
-    return vertices * vertex_ns + std::min(tets, static_cast<double>(budget.most_tets)) * tet_ns +
-           static_cast<double>(budget.lookups) * static_cast<double>(budget.near_points + budget.far_points) *
-               pair_ns +
-           static_cast<double>(budget.listed) * lists_ns;
+    return vertices * vertex_ns + std::min(tets, static_cast<double>(budget.summed)) * tet_ns +
+           std::min(vertices, static_cast<double>(budget.held)) * held_ns +
+           static_cast<double>(budget.chosen) * chosen_ns;
 }
 
 // What a visited cell costs with its list, in visits of empty cells.
@@ -158,9 +157,9 @@ bool AdaptiveCellSize::choose(std::span<const Body> bodies, bool dense, double b
     // R / V with all cell sizes changed by the same factor.
     const auto balance = [&](double factor) {
         double read = 0, cells = 0;
-        for (const SizeClass& c : cost.lookups().classes()) {
+        for (const auto& c : cost.classes()) {
             const double d = level_of(c, sizes_.list()).cell_size * factor;
-            read += c.passed.at(d) + c.tested.at(d);
+            read += c.read(d);
             cells += c.cells.at(d);
         }
         return std::log(read / cells);

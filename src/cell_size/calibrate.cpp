@@ -152,7 +152,7 @@ void measure_reference(Scene& scene, CostWeights& weights) {
                 static_cast<double>(scene.bodies[0].tets.size() + scene.bodies[1].tets.size());
             const auto vertices = static_cast<double>(counters.entries);
             const double fixed = vertices * (weights.classify_vertex + 2 * weights.clear_bucket) +
-                                 tets * weights.prepare_tet + cost.lookups().candidates() * weights.test_tet;
+                                 tets * weights.prepare_tet + cost.candidates() * weights.test_tet;
             const ReferenceModel::Work work = cost.work(cell_size);
             timings.push_back(
                 {time, {fixed, work.visited, work.changed, work.read, work.fetched, work.tested}});

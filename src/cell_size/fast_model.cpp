@@ -4,16 +4,13 @@
 #include "base/sampling.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <span>
 
 namespace vox {
 
 namespace {
-
-// At most this multiple of the looks that are gone through for each cell size is kept, which is enough to
-// know how many looks there are of each size.
-constexpr std::size_t looks_to_keep = 16;
 
 void append(const fast::Points& from, std::size_t first, std::uint32_t count, fast::Points& to) {
     to.reserve(std::size_t{to.count} + count);
@@ -44,157 +41,230 @@ void append_near(const CellSizeScene& scene, std::uint32_t body, const Box& own,
     }
 }
 
-// Appends the boxes of the tiles of a body that meet a region.
-void append_tiles(const CellSizeScene& scene, std::uint32_t body, const Box& region, Array<Box>& out) {
+// Calls visit(box) for the tiles of a body that meet a region.
+template <class Visit>
+void for_tiles(const CellSizeScene& scene, std::uint32_t body, const Box& region, Visit&& visit) {
     const fast::StepBoxes& boxes = scene.boxes();
     const Array<fast::StepBody>& of = scene.step().of;
     const std::size_t end = body + 1 < of.size() ? of[body + 1].first_tile : boxes.tiles.size();
     for (std::size_t t = of[body].first_tile; t < end; ++t)
-        if (boxes.tile_known[t] && overlap(boxes.tiles[t], region)) out.push_back(boxes.tiles[t]);
+        if (boxes.tile_known[t] && overlap(boxes.tiles[t], region)) visit(boxes.tiles[t]);
+}
+
+double longest_side(const Box& box) {
+    return std::max({double{box.hi[0]} - double{box.lo[0]}, double{box.hi[1]} - double{box.lo[1]},
+                     double{box.hi[2]} - double{box.lo[2]}});
+}
+
+PlainBox plain(const Box& box) {
+    return {{double{box.lo[0]}, double{box.lo[1]}, double{box.lo[2]}},
+            {double{box.hi[0]}, double{box.hi[1]}, double{box.hi[2]}}};
 }
 
 } // namespace
 
 FastModel::FastModel(const CellSizeScene& scene, const CostWeights& weights)
     : pools_(scene.memory), weights_(weights), budget_(scene.budget) {
+    fast::Points points(scene.memory);
+    Array<Window> windows(scene.memory);
+    Array<Look> looks(scene.memory);
+    gather(scene, points, windows, looks);
+    for (Pool& pool : pools_) pool.smallest_cell /= pool.windows;
+    keep_looks(windows, looks);
+    count_points(points, windows, looks);
+}
+
+// Of all looks, one in a stride is in the list, so that there are about as many as are to be summed.
+void FastModel::gather(const CellSizeScene& scene, fast::Points& points, Array<Window>& windows,
+                       Array<Look>& looks) {
     const fast::BroadPhase& near = scene.broad_phase();
-    Array<Box> tiles(scene.memory);              // that meet the regions
-    Array<std::size_t> first_tile(scene.memory); // of each region in `tiles`, and the end
-    first_tile.reserve(near.regions.size() + 1);
-    for (const fast::PairRegion& pair : near.regions) {
-        first_tile.push_back(tiles.size());
-        append_tiles(scene, pair.b, pair.region, tiles);
-    }
-    first_tile.push_back(tiles.size());
-    std::size_t all = tiles.size();
+    std::size_t all = 0;
+    for (const fast::PairRegion& pair : near.regions)
+        for_tiles(scene, pair.b, pair.region, [&](const Box&) { ++all; });
     for (const Body& body : scene.bodies)
         if (body.self_collision) all += body.tets.size() / tile_size;
-    const std::size_t stride = stride_for(all, looks_to_keep * budget_.most_looks);
+    const std::size_t stride = stride_for(all, static_cast<std::size_t>(budget_.summed));
+    each_ = static_cast<double>(stride);
     std::size_t seen = stride / 2;
-
-    fast::Points points(scene.memory);
-    std::uint32_t first_vertex = 0;
-    for (std::uint32_t a = 0; a < scene.bodies.size(); first_vertex += scene.bodies[a].vertex_count, ++a) {
+    for (std::uint32_t a = 0; a < scene.bodies.size(); ++a) {
         const Box own_region = scene.own_region(a);
         Box region = own_region;
         for (const fast::PairRegion& pair : near.of_a(a)) add(region, pair.region);
         if (is_empty(region)) continue;
-        points.count = 0;
+        const std::uint32_t first = points.count;
         append_near(scene, a, own_region, region, points);
-        if (points.count == 0) continue;
-
-        const Box window = fast::bounds(points);
-        const fast::WindowLattice finest =
-            fast::make_lattice(window, 0, fast::most_window_cells(points.count));
-        Pool& pool = pool_of(1 / double{finest.inverse});
-        pool.windows += 1;
-        pool.smallest_cell += 1 / double{finest.inverse};
-        double sides[3];
-        for (int i = 0; i < 3; ++i) {
-            sides[i] = double{window.hi[i]} - double{window.lo[i]};
-            pool.largest_side = std::max(pool.largest_side, sides[i]);
-        }
-        pool.cells.add(cells_met(sides));
-        for (std::uint32_t i = 0; i < points.count; ++i) points.id[i] += first_vertex;
-        if (pool.points.count == 0)
-            std::swap(points, pool.points);
-        else
-            append(points, 0, points.count, pool.points);
-        const auto look = [&](std::span<const Box> tile_boxes, Box where) {
-            intersect(where, window);
-            for (Box box : tile_boxes) {
-                if (!overlap(box, where) || seen++ % stride != 0) continue;
-                intersect(box, where);
-                Lookup lookup{};
-                Look& kept = pool.looks.emplace_back();
-                for (int i = 0; i < 3; ++i) {
-                    lookup.lo[i] = box.lo[i];
-                    lookup.hi[i] = box.hi[i];
-                    kept.side[i] = double{box.hi[i]} - double{box.lo[i]};
-                    kept.below[i] = double{box.lo[i]} - double{window.lo[i]};
-                    kept.above[i] = double{window.hi[i]} - double{box.hi[i]};
-                }
-                lookup.first_read = first_vertex;
-                lookup.last_read = first_vertex + scene.bodies[a].vertex_count;
-                pool.lookups.add(lookup, static_cast<double>(stride));
-            }
+        if (points.count == first) continue;
+        const std::uint32_t window = add_window(points, first, windows);
+        Pool& pool = pools_[windows[window].pool];
+        const auto look_from = [&](std::uint32_t body, const Box& where) {
+            Box inside = where;
+            intersect(inside, windows[window].box);
+            for_tiles(scene, body, where, [&](const Box& tile) {
+                if (!overlap(tile, inside) || seen++ % stride != 0) return;
+                Box box = tile;
+                intersect(box, inside);
+                looks.push_back({box, window});
+                pool.look_count += each_;
+            });
         };
-        if (!is_empty(own_region)) {
-            const std::size_t first = tiles.size();
-            append_tiles(scene, a, own_region, tiles);
-            look(std::span(tiles).subspan(first), own_region);
-            tiles.resize(first);
-        }
-        for (const fast::PairRegion& pair : near.of_a(a)) {
-            const auto r = static_cast<std::size_t>(&pair - near.regions.data());
-            look(std::span(tiles).subspan(first_tile[r], first_tile[r + 1] - first_tile[r]), pair.region);
-        }
-    }
-    for (Pool& pool : pools_) {
-        pool.lookups.count_points(pool.points, false);
-        pool.smallest_cell /= pool.windows;
+        if (!is_empty(own_region)) look_from(a, own_region);
+        for (const fast::PairRegion& pair : near.of_a(a)) look_from(pair.b, pair.region);
     }
 }
 
-FastModel::Pool& FastModel::pool_of(double smallest_cell) {
-    const int key = static_cast<int>(std::floor(2 * std::log2(smallest_cell)));
+// Of the points from `first` on.
+std::uint32_t FastModel::add_window(const fast::Points& points, std::uint32_t first, Array<Window>& windows) {
+    const std::uint32_t count = points.count - first;
+    const Box box = fast::bounds(points, first, count);
+    const double smallest = 1 / double{fast::make_lattice(box, 0, fast::most_window_cells(count)).inverse};
+    const int key = static_cast<int>(std::floor(2 * std::log2(smallest)));
+    std::size_t p = 0;
+    while (p < pools_.size() && pools_[p].key != key) ++p;
+    if (p == pools_.size()) pools_.emplace_back(key, pools_.memory());
+    Pool& pool = pools_[p];
+    const PlainBox sides = plain(box);
+    pool.windows += 1;
+    pool.smallest_cell += smallest;
+    pool.largest_side = std::max(pool.largest_side, sides.longest_side());
+    pool.vertices += count;
+    pool.cells.add(cells_met({sides.side(0), sides.side(1), sides.side(2)}));
+    windows.push_back({box, first, count, static_cast<std::uint32_t>(p)});
+    return static_cast<std::uint32_t>(windows.size() - 1);
+}
+
+void FastModel::keep_looks(const Array<Window>& windows, const Array<Look>& looks) {
+    Array<std::uint32_t> in_pool(pools_.size(), pools_.memory());
+    for (const Look& look : looks) {
+        const std::uint32_t p = windows[look.window].pool;
+        ++in_pool[p];
+        const double side = longest_side(look.box);
+        if (!(side > 0)) continue;
+        Pool& pool = pools_[p];
+        pool.smallest_look = pool.largest_look > 0 ? std::min(pool.smallest_look, side) : side;
+        pool.largest_look = std::max(pool.largest_look, side);
+    }
+    Array<std::uint32_t> seen(pools_.size(), pools_.memory());
+    for (const Look& look : looks) {
+        const Window& window = windows[look.window];
+        Pool& pool = pools_[window.pool];
+        if (seen[window.pool]++ % stride_for(in_pool[window.pool], budget_.cells) != 0) continue;
+        ++pool.kept;
+        for (int a = 0; a < 3; ++a) {
+            pool.axes[a].side.push_back(look.box.hi[a] - look.box.lo[a]);
+            pool.axes[a].below.push_back(look.box.lo[a] - window.box.lo[a]);
+            pool.axes[a].above.push_back(window.box.hi[a] - look.box.hi[a]);
+        }
+    }
+}
+
+// A look reads the points of its own window. Some of these stand for all.
+void FastModel::count_points(const fast::Points& points, const Array<Window>& windows,
+                             const Array<Look>& looks) {
+    std::pmr::memory_resource* const memory = pools_.memory();
     for (Pool& pool : pools_)
-        if (pool.key == key) return pool;
-    return pools_.emplace_back(key, budget_, pools_.memory());
+        pool.read.emplace(
+            nearest_distance * (pool.smallest_look > 0 ? pool.smallest_look : pool.smallest_cell), memory);
+    Array<std::uint32_t> kinds(memory);
+    kinds.reserve(looks.size());
+    for (const Look& look : looks) {
+        const auto octave = std::bit_cast<std::uint64_t>(longest_side(look.box)) >> 52;
+        kinds.push_back(windows[look.window].pool << 12 | static_cast<std::uint32_t>(octave));
+    }
+    Array<FourBoxes> some(memory);
+    some.reserve(static_cast<std::size_t>(std::min<std::uint64_t>(points.count, budget_.held)) / 4 + 1);
+    Array<Asking> chosen = choose_of_kinds(kinds, budget_.chosen, each_, memory);
+    std::sort(chosen.begin(), chosen.end(),
+              [](const Asking& a, const Asking& b) { return a.index < b.index; });
+    std::size_t n = 0; // points in `some`, which are of the window of the look before
+    const Window* before = nullptr;
+    for (const Asking& ask : chosen) {
+        const Look& look = looks[ask.index];
+        const Window& window = windows[look.window];
+        if (before != &window) {
+            before = &window;
+            n = 0;
+            some.clear();
+            for_stratified(window.count, budget_.held, 0.5, [&](std::uint64_t i) {
+                const std::size_t p = window.first + static_cast<std::size_t>(i);
+                const double x = double{points.x[p]}, y = double{points.y[p]}, z = double{points.z[p]};
+                if (n % 4 == 0) some.push_back(no_boxes);
+                some.back().set(n++ % 4, {{x, y, z}, {x, y, z}});
+            });
+        }
+        const double each = ask.weight * window.count / static_cast<double>(n);
+        double weights[4];
+        PiecewiseMoments& read = *pools_[window.pool].read;
+        for (std::size_t f = 0; f < some.size(); ++f) {
+            for (std::size_t i = 0; i < 4; ++i) weights[i] = 4 * f + i < n ? each : 0;
+            add_common_cells(plain(look.box), some[f], weights, read);
+        }
+    }
+    for (Pool& pool : pools_) pool.read->finish();
+}
+
+void FastModel::Pool::add(double cell_size, Alignment alignment, Counts& sum) const noexcept {
+    sum.vertices += vertices;
+    sum.cells += cells.at(cell_size);
+    sum.looks += look_count;
+    sum.tested += read->at_least();
+    if (kept == 0) return;
+    if (alignment == Alignment::average) sum.rows += mean_rows(cell_size);
+    sum.read += read->at(cell_size) * (alignment == Alignment::actual ? add_actual(cell_size, sum) : 1);
 }
 
 // Whole cells extend a box beyond each end along an axis, within the window: a point at distance e from the
 // end is in a cell that the box meets with probability 1 - e/d.
-double FastModel::Pool::along(const Look& look, int axis, double inverse) noexcept {
-    const double below = std::min(look.below[axis] * inverse, 1.0),
-                 above = std::min(look.above[axis] * inverse, 1.0);
-    return look.side[axis] * inverse + below * (1 - below / 2) + above * (1 - above / 2);
+double FastModel::Extents::cells(std::size_t look, double inverse) const noexcept {
+    const double b = std::min(double{below[look]} * inverse, 1.0),
+                 e = std::min(double{above[look]} * inverse, 1.0);
+    return double{side[look]} * inverse + b * (1 - b / 2) + e * (1 - e / 2);
 }
 
-void FastModel::Pool::add(double cell_size, Alignment alignment, std::size_t most_looks,
-                          Counts& sum) const noexcept {
-    sum.vertices += points.count;
-    sum.cells += cells.at(cell_size);
-    sum.looks += lookups.count();
-    sum.tested += lookups.candidates();
-    if (looks.empty()) return;
-    if (alignment == Alignment::average) sum.rows += mean_rows(cell_size, most_looks);
-    sum.read += lookups.read(cell_size) *
-                (alignment == Alignment::actual ? add_actual(cell_size, most_looks, sum) : 1);
+// By the same formula, for some looks at a time.
+double FastModel::Pool::mean_rows(double cell_size) const noexcept {
+    if (cell_size >= largest_side) return look_count; // all in one cell
+    constexpr std::size_t some = 64;
+    const auto inverse = static_cast<float>(1 / cell_size);
+    double sum = 0;
+    float rows[some];
+    for (std::size_t first = 0; first < kept; first += some) {
+        const std::size_t count = std::min(some, kept - first);
+        for (int a = 1; a < 3; ++a) {
+            const float *side = axes[a].side.data() + first, *below = axes[a].below.data() + first,
+                        *above = axes[a].above.data() + first;
+            for (std::size_t i = 0; i < count; ++i) {
+                float b = below[i] * inverse, e = above[i] * inverse;
+                b = b < 1 ? b : 1;
+                e = e < 1 ? e : 1;
+                const float along = side[i] * inverse + b * (1 - 0.5f * b) + e * (1 - 0.5f * e);
+                rows[i] = (a == 1 ? 1 : rows[i]) * (along > 1 ? along : 1);
+            }
+        }
+        for (std::size_t i = 0; i < count; ++i) sum += double{rows[i]};
+    }
+    return sum * (look_count / static_cast<double>(kept));
 }
 
-double FastModel::Pool::mean_rows(double cell_size, std::size_t most_looks) const noexcept {
-    if (cell_size >= largest_side) return lookups.count(); // all in one cell
-    const std::size_t stride = stride_for(looks.size(), most_looks);
+double FastModel::Pool::add_actual(double cell_size, Counts& sum) const noexcept {
     const double inverse = 1 / cell_size;
-    double rows = 0, count = 0;
-    for (std::size_t i = 0; i < looks.size(); i += stride, count += 1)
-        rows += std::max(along(looks[i], 1, inverse), 1.0) * std::max(along(looks[i], 2, inverse), 1.0);
-    return rows * (lookups.count() / count);
-}
-
-double FastModel::Pool::add_actual(double cell_size, std::size_t most_looks, Counts& sum) const noexcept {
-    const std::size_t stride = stride_for(looks.size(), most_looks);
-    const double inverse = 1 / cell_size;
-    double rows = 0, visited = 0, mean = 0, as_laid = 0, count = 0;
-    for (std::size_t i = 0; i < looks.size(); i += stride, count += 1) {
-        const Look& look = looks[i];
-        double cells[3];                    // along each axis
+    double rows = 0, visited = 0, mean = 0, as_laid = 0;
+    for (std::size_t i = 0; i < kept; ++i) {
+        double along[3];
         double volume = 1, volume_laid = 1; // of the part of them that is in the window
         for (int a = 0; a < 3; ++a) {
-            volume *= along(look, a, inverse);
-            const double first = std::floor(look.below[a] * inverse);
-            const double last = std::floor((look.below[a] + look.side[a]) * inverse);
-            const double end = (look.below[a] + look.side[a] + look.above[a]) * inverse;
-            cells[a] = last - first + 1;
-            volume_laid *= std::min(last + 1, end) - first;
+            const double side = double{axes[a].side[i]}, below = double{axes[a].below[i]},
+                         above = double{axes[a].above[i]};
+            volume *= axes[a].cells(i, inverse);
+            const double first = std::floor(below * inverse), last = std::floor((below + side) * inverse);
+            along[a] = last - first + 1;
+            volume_laid *= std::min(last + 1, (below + side + above) * inverse) - first;
         }
-        rows += cells[1] * cells[2];
-        visited += cells[0] * cells[1] * cells[2];
+        rows += along[1] * along[2];
+        visited += along[0] * along[1] * along[2];
         mean += volume;
         as_laid += volume_laid;
     }
-    const double scale = lookups.count() / count;
+    const double scale = look_count / static_cast<double>(kept);
     sum.rows += rows * scale;
     sum.visited_cells += visited * scale;
     return mean > 0 ? as_laid / mean : 1;
@@ -202,26 +272,22 @@ double FastModel::Pool::add_actual(double cell_size, std::size_t most_looks, Cou
 
 std::uint64_t FastModel::points_looked_at() const noexcept {
     std::uint64_t sum = 0;
-    for (const Pool& pool : pools_) sum += pool.lookups.points_looked_at();
+    for (const Pool& pool : pools_) sum += pool.read->added();
     return sum;
 }
 
 std::uint64_t FastModel::looks_per_call() const noexcept {
     std::uint64_t sum = 0;
-    for (const Pool& pool : pools_) {
-        const std::size_t stride = stride_for(pool.looks.size(), budget_.most_looks);
-        sum += (pool.looks.size() + stride - 1) / stride;
-    }
+    for (const Pool& pool : pools_) sum += pool.kept;
     return sum;
 }
 
 std::optional<CellSizeRange> FastModel::range() const noexcept {
     std::optional<CellSizeRange> range;
     for (const Pool& pool : pools_) {
-        double smallest = 0, largest = 0;
-        if (!pool.lookups.sides(smallest, largest)) continue;
-        smallest = std::min(smallest, pool.smallest_cell);
-        largest *= 2;
+        if (!(pool.largest_look > 0)) continue;
+        const double smallest = std::min(pool.smallest_look / 2, pool.smallest_cell),
+                     largest = 4 * pool.largest_look;
         range = range ? CellSizeRange{std::min(range->min, smallest), std::max(range->max, largest)}
                       : CellSizeRange{smallest, largest};
     }
@@ -230,8 +296,7 @@ std::optional<CellSizeRange> FastModel::range() const noexcept {
 
 FastModel::Counts FastModel::counts(double cell_size, Alignment alignment) const {
     Counts sum;
-    for (const Pool& pool : pools_)
-        pool.add(std::max(cell_size, pool.smallest_cell), alignment, budget_.most_looks, sum);
+    for (const Pool& pool : pools_) pool.add(std::max(cell_size, pool.smallest_cell), alignment, sum);
     return sum;
 }
 

@@ -1,4 +1,5 @@
-// What a step of the fast engine costs, as a function of the cell size of its windows.
+// What a step of the fast engine costs, as a function of the cell size of its windows. These hold vertices,
+// and the boxes of tiles ask (moments.hpp):
 //
 //   T(d) = c_bin n      vertices that may be in contact, binned once for each body
 //        + c_clear W(d) cells of the windows, at most two a vertex
@@ -13,7 +14,7 @@
 #pragma once
 
 #include "base/array.hpp"
-#include "cell_size/lookups.hpp"
+#include "cell_size/pairs.hpp"
 #include "cell_size/scene.hpp"
 #include "cell_size/search.hpp"
 #include "cell_size/weights.hpp"
@@ -23,6 +24,7 @@
 #include <cstdint>
 #include <memory_resource>
 #include <optional>
+#include <span>
 
 namespace vox {
 
@@ -56,36 +58,52 @@ public:
     std::uint64_t looks_per_call() const noexcept;
 
 private:
-    // A tile's box in a window, cut to it: its sides, and how far the window extends below and above.
-    struct Look {
-        double side[3], below[3], above[3];
+    // Of the box of a tile in a window, cut to it, along an axis: its side, and how far the window extends
+    // below and above. One after the other: compilers make vectors of loops over them.
+    struct Extents {
+        explicit Extents(std::pmr::memory_resource* memory) : side(memory), below(memory), above(memory) {}
+        double cells(std::size_t look, double inverse) const noexcept; // met, on average
+        Array<float> side, below, above;
     };
     // Windows whose smallest possible cells are alike, so that the same cell size is used in all of them.
     struct Pool {
-        Pool(int key, const SampleBudget& budget, std::pmr::memory_resource* memory)
-            : key(key), lookups(budget, memory), points(memory), looks(memory) {}
+        Pool(int key, std::pmr::memory_resource* memory)
+            : key(key), axes{Extents(memory), Extents(memory), Extents(memory)} {}
 
-        void add(double cell_size, Alignment alignment, std::size_t most_looks, Counts& sum) const noexcept;
-        static double along(const Look& look, int axis, double inverse) noexcept; // cells, on average
-        double mean_rows(double cell_size, std::size_t most_looks) const noexcept;
+        void add(double cell_size, Alignment alignment, Counts& sum) const noexcept;
+        double mean_rows(double cell_size) const noexcept;
         // Adds rows and cells as they lie. Returns how much of the window they cover, relative to the
         // average.
-        double add_actual(double cell_size, std::size_t most_looks, Counts& sum) const noexcept;
+        double add_actual(double cell_size, Counts& sum) const noexcept;
 
         int key;
-        Lookups lookups;
-        fast::Points points;
-        Array<Look> looks;
-        double windows = 0, smallest_cell = 0; // the mean of the windows
-        double largest_side = 0;               // of a window
-        Moments cells;                         // of the windows
+        double windows = 0, smallest_cell = 0;      // the mean of the windows
+        double largest_side = 0;                    // of a window
+        double vertices = 0, look_count = 0;        // of all
+        double smallest_look = 0, largest_look = 0; // longest sides above 0
+        Moments cells;                              // of the windows
+        std::optional<PiecewiseMoments> read;
+        std::size_t kept = 0; // looks that are gone through at each size
+        Extents axes[3];      // of these
+    };
+    struct Window {
+        Box box;
+        std::uint32_t first, count, pool; // points
+    };
+    struct Look {
+        Box box;
+        std::uint32_t window;
     };
 
-    Pool& pool_of(double smallest_cell);
+    void gather(const CellSizeScene& scene, fast::Points& points, Array<Window>& windows, Array<Look>& looks);
+    std::uint32_t add_window(const fast::Points& points, std::uint32_t first, Array<Window>& windows);
+    void keep_looks(const Array<Window>& windows, const Array<Look>& looks);
+    void count_points(const fast::Points& points, const Array<Window>& windows, const Array<Look>& looks);
 
     Array<Pool> pools_;
     CostWeights weights_;
     SampleBudget budget_;
+    double each_ = 1; // looks that one in the list stands for
 };
 
 } // namespace vox

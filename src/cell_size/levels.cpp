@@ -20,11 +20,9 @@ constexpr double most_sizes = 160;
 
 // What a grid of this cell size costs for the classes with some exponents.
 double cost_of_level(const ReferenceModel& cost, int first_exponent, int last_exponent, double cell_size) {
-    const double occupied = cost.occupied(cell_size);
     double sum = cost.of_grid(cell_size);
-    for (const SizeClass& c : cost.lookups().classes())
-        if (c.exponent >= first_exponent && c.exponent <= last_exponent)
-            sum += cost.of_class(c, cell_size, occupied);
+    for (const auto& c : cost.classes())
+        if (c.exponent >= first_exponent && c.exponent <= last_exponent) sum += cost.of_class(c, cell_size);
     return sum;
 }
 
@@ -37,9 +35,9 @@ struct Split {
 } // namespace
 
 Levels choose_levels(const ReferenceModel& cost, const CellSizeRange& range) {
-    std::pmr::memory_resource* const memory = cost.lookups().classes().memory();
+    std::pmr::memory_resource* const memory = cost.classes().memory();
     Array<int> exponents(memory);
-    for (const SizeClass& c : cost.lookups().classes()) exponents.push_back(c.exponent);
+    for (const auto& c : cost.classes()) exponents.push_back(c.exponent);
     std::sort(exponents.begin(), exponents.end());
     exponents.erase(std::unique(exponents.begin(), exponents.end()), exponents.end());
     const std::size_t n = exponents.size();
@@ -54,12 +52,12 @@ Levels choose_levels(const ReferenceModel& cost, const CellSizeRange& range) {
     };
     Array<double> grid(sizes, memory), sum((n + 1) * sizes, memory);
     for (std::size_t k = 0; k < sizes; ++k) {
-        const double d = size_at(k), occupied = cost.occupied(d);
+        const double d = size_at(k);
         grid[k] = cost.of_grid(d);
-        for (const SizeClass& c : cost.lookups().classes()) {
+        for (const auto& c : cost.classes()) {
             const auto g =
                 std::lower_bound(exponents.begin(), exponents.end(), c.exponent) - exponents.begin();
-            sum[static_cast<std::size_t>(g + 1) * sizes + k] += cost.of_class(c, d, occupied);
+            sum[static_cast<std::size_t>(g + 1) * sizes + k] += cost.of_class(c, d);
         }
         for (std::size_t g = 0; g < n; ++g) sum[(g + 1) * sizes + k] += sum[g * sizes + k];
     }
@@ -106,7 +104,7 @@ Levels choose_levels(const ReferenceModel& cost, const CellSizeRange& range) {
     return levels;
 }
 
-const CellLevel& level_of(const SizeClass& c, std::span<const CellLevel> levels) {
+const CellLevel& level_of(const ReferenceModel::SizeClass& c, std::span<const CellLevel> levels) {
     const double side = std::ldexp(1.0, c.exponent);
     std::size_t l = 0;
     while (l + 1 < levels.size() && side > levels[l].longest_side) ++l;
@@ -116,10 +114,7 @@ const CellLevel& level_of(const SizeClass& c, std::span<const CellLevel> levels)
 double cost_of_levels(const ReferenceModel& cost, std::span<const CellLevel> levels) {
     double sum = cost.shared();
     for (const CellLevel& level : levels) sum += cost.of_grid(level.cell_size);
-    for (const SizeClass& c : cost.lookups().classes()) {
-        const double size = level_of(c, levels).cell_size;
-        sum += cost.of_class(c, size, cost.occupied(size));
-    }
+    for (const auto& c : cost.classes()) sum += cost.of_class(c, level_of(c, levels).cell_size);
     return sum;
 }
 

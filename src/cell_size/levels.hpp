@@ -27,7 +27,7 @@ struct Levels {
 Levels choose_levels(const ReferenceModel& cost, const CellSizeRange& range);
 
 // The level for the boxes of a class, by the smallest of them.
-const CellLevel& level_of(const SizeClass& c, std::span<const CellLevel> levels);
+const CellLevel& level_of(const ReferenceModel::SizeClass& c, std::span<const CellLevel> levels);
 // The cost of a step with these levels, of which there is at least one.
 double cost_of_levels(const ReferenceModel& cost, std::span<const CellLevel> levels);
 

@@ -1,6 +1,7 @@
 #include "cell_size/reference_model.hpp"
 
 #include "base/array.hpp"
+#include "base/boxes.hpp"
 #include "base/sampling.hpp"
 #include "base/vectors.hpp"
 #include "fast/body_pairs.hpp"
@@ -14,9 +15,26 @@ namespace {
 
 // At least this many tetrahedra of each body are sampled, so that a small body among large ones is seen.
 constexpr std::size_t least_of_body = 64;
+// A box that meets fewer cells than this is never better off with a scan of all that are occupied.
+constexpr double few_cells = 512;
+// With more sampled vertices than this in a cell, the number of all in it is known well enough.
+constexpr double crowd = 4;
+
+Box box_of(const Body& body) {
+    Box box = empty_box;
+    for (std::uint32_t v = 0; v < body.vertex_count; ++v) {
+        const Vec3f p = body.positions[v];
+        const float at[3] = {p.x, p.y, p.z};
+        for (int a = 0; a < 3; ++a) {
+            box.lo[a] = std::min(box.lo[a], at[a]);
+            box.hi[a] = std::max(box.hi[a], at[a]);
+        }
+    }
+    return box;
+}
 
 // Whether all of a box lies to one side of the tetrahedron before it in the mesh.
-bool is_apart(const Body& body, std::size_t tet, const Lookup& box) {
+bool is_apart(const Body& body, std::size_t tet, const PlainBox& box) {
     if (tet == 0) return true;
     bool below[3] = {true, true, true}, above[3] = {true, true, true};
     for (const std::uint32_t v : body.tets[tet - 1].v) {
@@ -30,51 +48,70 @@ bool is_apart(const Body& body, std::size_t tet, const Lookup& box) {
     return below[0] || below[1] || below[2] || above[0] || above[1] || above[2];
 }
 
+// Whether cells as large as the box itself may reach one of these boxes of bodies.
+bool is_near(const PlainBox& box, std::span<const fast::Pair> others, const Array<Box>& of_bodies) {
+    const double margin = box.longest_side();
+    return std::any_of(others.begin(), others.end(), [&](const fast::Pair& pair) {
+        const Box& other = of_bodies[pair.b];
+        bool meets = true;
+        for (int a = 0; a < 3; ++a)
+            meets &= box.lo[a] - margin <= double{other.hi[a]} && box.hi[a] + margin >= double{other.lo[a]};
+        return meets;
+    });
+}
+
 } // namespace
 
+ReferenceModel::SizeClass::SizeClass(int e, bool may_meet_points, std::pmr::memory_resource* memory)
+    : exponent(e), may_meet(may_meet_points), passed(std::ldexp(nearest_distance, e), memory),
+      tested(std::ldexp(nearest_distance, e), memory) {}
+
 ReferenceModel::ReferenceModel(const CellSizeScene& scene, bool dense, const CostWeights& weights)
-    : lookups_(scene.budget, scene.memory), weights_(weights), dense_(dense) {
-    std::size_t vertices = 0, tets = 0;
+    : weights_(weights), dense_(dense), budget_(scene.budget), classes_(scene.memory),
+      points_chosen_(scene.memory) {
+    Array<Numbered> numbers(scene.memory);
+    numbers.reserve(scene.bodies.size());
+    std::uint32_t vertices = 0;
     for (const Body& body : scene.bodies) {
+        numbers.push_back({vertices, vertices + body.vertex_count});
         vertices += body.vertex_count;
-        tets += body.tets.size();
+        tets_ += static_cast<double>(body.tets.size());
     }
     vertices_ = static_cast<double>(vertices);
-    tets_ = static_cast<double>(tets);
-    fast::Points points(scene.memory);
-    points.reserve(vertices);
-    Array<Box> boxes(scene.memory);
-    for (const Body& body : scene.bodies) {
-        const std::uint32_t first = points.count;
-        for (std::uint32_t v = 0; v < body.vertex_count; ++v) {
-            const Vec3f p = body.positions[v];
-            const std::uint32_t i = first + v;
-            points.x[i] = p.x;
-            points.y[i] = p.y;
-            points.z[i] = p.z;
-            points.id[i] = i;
-        }
-        points.count = first + body.vertex_count;
-        boxes.push_back(fast::bounds(points, first, body.vertex_count));
+    Array<TetBox> boxes(scene.memory);
+    sample_boxes(scene, numbers, boxes);
+    if (classes_.empty()) return;
+    int smallest = classes_[0].exponent, largest = smallest;
+    for (const SizeClass& c : classes_) {
+        smallest = std::min(smallest, c.exponent);
+        largest = std::max(largest, c.exponent);
     }
+    range_ = {std::ldexp(1.0, smallest - 3), std::ldexp(1.0, largest + 5)};
+    occupied_shares_.emplace(*range_, 0, scene.memory);
+    count_points(scene, numbers, boxes);
+}
+
+void ReferenceModel::sample_boxes(const CellSizeScene& scene, std::span<const Numbered>,
+                                  Array<TetBox>& boxes) {
+    Array<Box> of_bodies(scene.memory);
+    Box all = empty_box;
+    for (const Body& body : scene.bodies) {
+        of_bodies.push_back(box_of(body));
+        add(all, of_bodies.back());
+    }
+    for (int a = 0; a < 3; ++a) sides_[a] = std::max(double{all.hi[a]} - double{all.lo[a]}, 0.0);
     fast::PairBuffers buffers(scene.memory);
     Array<fast::Pair> pairs(scene.memory);
-    fast::find_pairs(boxes, {.bodies = scene.bodies}, buffers, pairs);
+    fast::find_pairs(of_bodies, {.bodies = scene.bodies}, buffers, pairs);
     const fast::Pair* pair = pairs.data(); // sorted by a
     const fast::Pair* const last_pair = pair + pairs.size();
-    std::uint32_t first = 0;
     for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
         const Body& body = scene.bodies[b];
         const fast::Pair* const begin = pair;
         while (pair != last_pair && pair->a == b) ++pair;
         const std::span<const fast::Pair> others(begin, pair);
-        Lookup lookup{};
-        lookup.last_read = static_cast<std::uint32_t>(vertices);
-        lookup.first_passed = first;
-        first += body.vertex_count;
-        lookup.last_passed = body.self_collision ? lookup.first_passed : first;
         const std::size_t count = body.tets.size();
-        const auto share = static_cast<std::size_t>(static_cast<double>(scene.budget.most_tets) *
+        const auto share = static_cast<std::size_t>(static_cast<double>(budget_.summed) *
                                                     static_cast<double>(count) / std::max(tets_, 1.0));
         const std::size_t wanted = std::max(share, least_of_body);
         const double weight = static_cast<double>(count) / static_cast<double>(std::min(count, wanted));
@@ -86,34 +123,64 @@ ReferenceModel::ReferenceModel(const CellSizeScene& scene, bool dense, const Cos
             if (determinant(p[1] - p[0], p[2] - p[0], p[3] - p[0]) == 0) return;
             const Vec3d lo = min(min(p[0], p[1]), min(p[2], p[3])),
                         hi = max(max(p[0], p[1]), max(p[2], p[3]));
-            std::copy_n(&lo.x, 3, lookup.lo);
-            std::copy_n(&hi.x, 3, lookup.hi);
-            lookup.jumps = is_apart(body, t, lookup);
-            // Near is what cells as large as the box itself may reach.
-            const Vec3d sides = hi - lo;
-            const double margin = std::max({sides.x, sides.y, sides.z});
-            lookup.may_meet = std::any_of(others.begin(), others.end(), [&](const fast::Pair& other) {
-                const Box& box = boxes[other.b];
-                for (int a = 0; a < 3; ++a)
-                    if (lookup.lo[a] - margin > double{box.hi[a]} ||
-                        lookup.hi[a] + margin < double{box.lo[a]})
-                        return false;
-                return true;
-            });
-            lookups_.add(lookup, weight);
+            const PlainBox box{{lo.x, lo.y, lo.z}, {hi.x, hi.y, hi.z}};
+            SizeClass& c = class_of(box.longest_side(), is_near(box, others, of_bodies));
+            c.count += weight;
+            if (is_apart(body, t, box)) c.apart += weight;
+            c.cells.add(cells_met({box.side(0), box.side(1), box.side(2)}), weight);
+            boxes.push_back({box, b, static_cast<std::uint32_t>(&c - classes_.data()), weight});
         });
     }
-    if (points.count > 0) {
-        const Box box = fast::bounds(points);
-        for (int a = 0; a < 3; ++a) sides_[a] = double{box.hi[a]} - double{box.lo[a]};
-    }
-    lookups_.count_points(points, true);
 }
 
-std::optional<CellSizeRange> ReferenceModel::range() const noexcept {
-    double smallest = 0, largest = 0;
-    if (!lookups_.sides(smallest, largest)) return std::nullopt;
-    return CellSizeRange{smallest / 16, largest * 16};
+ReferenceModel::SizeClass& ReferenceModel::class_of(double side, bool may_meet) {
+    const int exponent = std::ilogb(side);
+    for (SizeClass& c : classes_)
+        if (c.exponent == exponent && c.may_meet == may_meet) return c;
+    return classes_.emplace_back(exponent, may_meet, classes_.memory());
+}
+
+void ReferenceModel::count_points(const CellSizeScene& scene, std::span<const Numbered> numbers,
+                                  const Array<TetBox>& boxes) {
+    std::pmr::memory_resource* const memory = scene.memory;
+    BoxSample sample(memory);
+    const auto vertices = static_cast<std::uint64_t>(vertices_);
+    sample.reserve(static_cast<std::size_t>(std::min(vertices, budget_.held)));
+    std::size_t b = 0;
+    for_stratified(vertices, budget_.held, 0.5, [&](std::uint64_t v) {
+        while (v >= numbers[b].end) ++b;
+        const Vec3d p = scene.bodies[b].positions[static_cast<std::size_t>(v) - numbers[b].first];
+        sample.add({{p.x, p.y, p.z}, {p.x, p.y, p.z}}, static_cast<std::uint32_t>(v));
+    });
+    points_.emplace(sample, false, static_cast<double>(sample.ids.size()) / vertices_, memory);
+
+    Array<std::uint32_t> kinds(memory);
+    kinds.reserve(boxes.size());
+    for (const TetBox& box : boxes) kinds.push_back(box.in_class);
+    std::uint64_t random = 2;
+    for (const Asking& ask : choose_of_kinds(kinds, budget_.chosen, 1, memory)) {
+        const TetBox& own = boxes[ask.index];
+        SizeClass& c = classes_[own.in_class];
+        const Numbered passed = scene.bodies[own.body].self_collision ? Numbered{0, 0} : numbers[own.body];
+        const double each = ask.weight * own.weight / points_->share();
+        for_fours_around(
+            own.box, *points_, budget_.coarse, random,
+            [&](const FourBoxes& others, const std::uint32_t(&ids)[4], const double(&numbers_of)[4]) {
+                double of_passed[4], of_tested[4], any_tested = 0;
+                for (std::size_t i = 0; i < 4; ++i) {
+                    const bool is_passed = ids[i] >= passed.first && ids[i] < passed.end;
+                    of_passed[i] = is_passed ? each * numbers_of[i] : 0;
+                    of_tested[i] = is_passed ? 0 : each * numbers_of[i];
+                    any_tested += of_tested[i];
+                }
+                add_common_cells(own.box, others, of_passed, c.passed);
+                if (any_tested > 0) add_common_cells(own.box, others, of_tested, c.tested);
+            });
+    }
+    for (SizeClass& c : classes_) {
+        c.passed.finish();
+        c.tested.finish();
+    }
 }
 
 double ReferenceModel::dense_cells(double cell_size) const noexcept {
@@ -140,43 +207,44 @@ double ReferenceModel::buckets(double cell_size) const noexcept {
     return dense_ ? dense_cells(cell_size) : 2 * vertices_;
 }
 
-double ReferenceModel::occupied(double cell_size) const noexcept {
-    return std::min(lookups_.occupied(cell_size), vertices_);
+double ReferenceModel::occupied(double cell_size) const {
+    if (points_chosen_.empty())
+        points_chosen_ = choose_asking(*points_, budget_.chosen, points_chosen_.memory());
+    const double share = occupied_shares_->at(cell_size, [this](double d) {
+        OccupiedShare of_cells(d, crowd);
+        of_cells.look(*points_, nullptr, points_chosen_, budget_.cells, budget_.rough);
+        return of_cells.value();
+    });
+    return std::max(share * vertices_, 1.0);
 }
 
-// Beyond the sizes that were counted, the nearest of them is scaled as the share of an irregular mesh
-// changes.
-double ReferenceModel::changed_share(const SizeClass& c, double cell_size, double mean) noexcept {
-    const double nearest = c.changes.nearest(cell_size);
-    if (nearest == cell_size) return c.changes.share(cell_size);
-    const double irregular = BranchMisses::of_irregular(mean);
-    if (nearest == 0) return irregular;
-    const double mean_there = (c.passed.at(nearest) + c.tested.at(nearest)) / c.cells.at(nearest);
-    if (!(mean_there > 0)) return 0;
-    return std::min(c.changes.share(nearest) * irregular / BranchMisses::of_irregular(mean_there), 1.0);
+double ReferenceModel::candidates() const noexcept {
+    double sum = 0;
+    for (const SizeClass& c : classes_) sum += c.tested.at_least();
+    return sum;
 }
 
 // Where the boxes meet more cells than are occupied, those are scanned instead.
-ReferenceModel::Work ReferenceModel::work(const SizeClass& c, double cell_size, double occupied) noexcept {
+ReferenceModel::Work ReferenceModel::work(const SizeClass& c, double cell_size) const {
     Work work;
-    const double cells = c.cells.at(cell_size), scanned = occupied * c.count, passed = c.passed.at(cell_size);
+    const double cells = c.cells.at(cell_size), passed = c.passed.at(cell_size);
     work.tested = c.tested.at(cell_size);
     work.read = passed + work.tested;
-    work.fetched = passed * c.jumped / c.count;
+    work.fetched = passed * c.apart / c.count;
+    const double scanned = cells > few_cells * c.count ? occupied(cell_size) * c.count : cells;
     if (cells > scanned) {
         work.scanned = scanned;
     } else {
         work.visited = cells;
-        work.changed = cells * changed_share(c, cell_size, work.read / cells);
+        work.changed = cells * (1 - std::pow(1 + 2.5 * work.read / cells, -0.8));
     }
     return work;
 }
 
-ReferenceModel::Work ReferenceModel::work(double cell_size) const noexcept {
-    const double occupied_cells = occupied(cell_size);
+ReferenceModel::Work ReferenceModel::work(double cell_size) const {
     Work sum;
-    for (const SizeClass& c : lookups_.classes()) {
-        const Work own = work(c, cell_size, occupied_cells);
+    for (const SizeClass& c : classes_) {
+        const Work own = work(c, cell_size);
         sum.visited += own.visited;
         sum.changed += own.changed;
         sum.scanned += own.scanned;
@@ -198,7 +266,7 @@ CostTerms ReferenceModel::terms(double cell_size) const {
     terms.add("read a vertex", w.read, weights_.read_vertex);
     terms.add("fetch a vertex", w.fetched, weights_.fetch_vertex);
     terms.add("test a box", w.tested, weights_.test_box);
-    terms.add("handle one in the box", lookups_.candidates(), weights_.test_tet);
+    terms.add("handle one in the box", candidates(), weights_.test_tet);
     terms.add("clear a bucket", buckets(cell_size), weights_.clear_bucket);
     return terms;
 }
@@ -207,15 +275,15 @@ double ReferenceModel::of_grid(double cell_size) const noexcept {
     return vertices_ * weights_.classify_vertex + buckets(cell_size) * weights_.clear_bucket;
 }
 
-double ReferenceModel::of_class(const SizeClass& c, double cell_size, double occupied) const noexcept {
-    const Work w = work(c, cell_size, occupied);
+double ReferenceModel::of_class(const SizeClass& c, double cell_size) const {
+    const Work w = work(c, cell_size);
     return w.visited * weights_.visit_cell + w.changed * weights_.changed_list +
            w.scanned * weights_.scan_cell + w.read * weights_.read_vertex +
            w.fetched * weights_.fetch_vertex + w.tested * weights_.test_box;
 }
 
 double ReferenceModel::shared() const noexcept {
-    return tets_ * weights_.prepare_tet + lookups_.candidates() * weights_.test_tet;
+    return tets_ * weights_.prepare_tet + candidates() * weights_.test_tet;
 }
 
 } // namespace vox

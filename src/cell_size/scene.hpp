@@ -3,7 +3,7 @@
 
 #include "base/array.hpp"
 #include "base/scene.hpp"
-#include "cell_size/lookups.hpp"
+#include "cell_size/pairs.hpp"
 #include "cell_size/tile_sketch.hpp"
 #include "fast/engine.hpp"
 #include "mesh/mesh.hpp"
@@ -23,6 +23,22 @@ struct Geometry {
     // none has.
     double mean_object_side;
 };
+
+// As closely as a model looks at all. The tests hold its counts to within 10 % of the engines' own.
+inline constexpr SampleBudget thorough{.summed = 1 << 18,
+                                       .held = 1 << 18,
+                                       .asking = 1 << 18,
+                                       .chosen = 4096,
+                                       .coarse = 1,
+                                       .cells = 4096,
+                                       .rough = 0,
+                                       .singly = 0};
+
+// For vox_suggest_cell_size, of a scene of so many tetrahedra.
+SampleBudget usual(vox_cost_model model, std::uint64_t tets) noexcept;
+
+// For a grid, where choosing has to cost less than a step of `tets` tetrahedra.
+SampleBudget quick(vox_cost_model model, std::uint64_t tets) noexcept;
 
 struct CellSizeScene {
     explicit CellSizeScene(std::pmr::memory_resource* memory);

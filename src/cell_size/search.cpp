@@ -1,6 +1,5 @@
 // Golden-section search (J. Kiefer, Sequential minimax search for a maximum, Proc. AMS 4, 1953). Ends of the
-// zone by regula falsi (the Illinois variant: M. Dowell, P. Jarratt, BIT 11, 1971). Cubics with slopes from
-// the neighbours (E. Catmull, R. Rom, A class of local interpolating splines, 1974). Places are binary
+// zone by regula falsi (the Illinois variant: M. Dowell, P. Jarratt, BIT 11, 1971). Places are binary
 // logarithms of cell sizes.
 #include "cell_size/search.hpp"
 
@@ -30,8 +29,7 @@ double size_at(double place, const CellSizeRange& range) {
 }
 
 // Where the cost passes the limit between a place inside, where it is not above it, and one outside.
-double crossing(const CostFunction& cost, double limit, double inside, double outside) {
-    constexpr double near = 1e-12; // of the limit
+double crossing(const CostFunction& cost, double limit, double inside, double outside, double near) {
     double below = finite_cost(cost, inside) - limit, above = finite_cost(cost, outside) - limit;
     int kept = 0; // how many times in a row the same end was kept: negative for the inner one
     for (int i = 0; i < 200; ++i) {
@@ -110,7 +108,7 @@ CellSizeRange zone_around(const CostMinimum& minimum, double limit, const CostFu
             double outside = inside + step;
             if (step < 0 ? outside < last : outside > last) outside = last;
             if (finite_cost(cost, outside) > limit)
-                return size_at(crossing(cost, limit, inside, outside), range);
+                return size_at(crossing(cost, limit, inside, outside, fineness.zone_tolerance), range);
             inside = outside;
         }
         return size_at(inside, range);
@@ -131,42 +129,6 @@ void draw_curve(const CostFunction& cost, const CellSizeRange& range,
         curve[i] = {std::exp2(place), cost(place)};
     }
     curve[count - 1] = {range.max, cost(high)};
-}
-
-// ---- table ----------------------------------------------------------------------------------------
-
-namespace {
-
-constexpr double per_octave = 2;
-// Nodes beyond either end of the range: a curve goes on for three octaves from the best size.
-constexpr int margin = 8;
-// Sizes further apart than any floats are.
-constexpr double most_octaves = 512;
-
-} // namespace
-
-CostTable::CostTable(CostFunction cost, const CellSizeRange& range, std::pmr::memory_resource* memory)
-    : cost_(std::move(cost)), log_min_(std::log2(range.min)),
-      last_(static_cast<int>(per_octave * std::min(std::log2(range.max / range.min), most_octaves))),
-      values_(static_cast<std::size_t>(last_ + 1 + 2 * margin), std::numeric_limits<double>::quiet_NaN(),
-              memory) {}
-
-double CostTable::value(int node) {
-    double& known = values_[static_cast<std::size_t>(node + margin)];
-    if (!std::isnan(known)) return known;
-    const double cost = cost_(log_min_ + node / per_octave);
-    return known = std::isfinite(cost) ? std::log2(cost) : infinity;
-}
-
-double CostTable::operator()(double log_size) {
-    const double place = (log_size - log_min_) * per_octave;
-    if (!(place >= 1 - margin && place < last_ + margin - 2)) return cost_(log_size);
-    const int node = static_cast<int>(place + margin) - margin; // rounded down
-    const double p0 = value(node - 1), p1 = value(node), p2 = value(node + 1), p3 = value(node + 2);
-    const double t = place - node;
-    const double cubic =
-        p1 + t / 2 * (p2 - p0 + t * (2 * p0 - 5 * p1 + 4 * p2 - p3 + t * (3 * (p1 - p2) + p3 - p0)));
-    return std::isfinite(cubic) ? std::exp2(cubic) : cost_(log_size);
 }
 
 void write_terms(const CostTerms& terms, double scale, vox_cell_size_result& result) noexcept {

@@ -2,15 +2,12 @@
 // of the models of this library and those of its users (vox_cost_minimise).
 #pragma once
 
-#include "base/array.hpp"
-
 #include <vox/vox_cell_size.h>
 
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <memory_resource>
 
 namespace vox {
 
@@ -66,7 +63,8 @@ struct CostMinimum {
 struct Fineness {
     double scans_per_octave = 5;
     int least_scans = 64;
-    double tolerance = 1e-8; // of an octave
+    double tolerance = 1e-8;       // of an octave
+    double zone_tolerance = 1e-12; // of the cost at the ends of a zone
 };
 
 // The least cost in the range, by an even scan and a golden-section search around its best place. Of a
@@ -84,26 +82,6 @@ void write_terms(const CostTerms& terms, double scale, vox_cell_size_result& res
 // Costs at sizes that are evenly spaced in the logarithm, both ends included.
 void draw_curve(const CostFunction& cost, const CellSizeRange& range,
                 vox_cost_sample (&curve)[VOX_CURVE_CAPACITY], std::uint32_t& count);
-
-// A cost function that is expensive to call, from its values at two sizes an octave: the logarithm of the
-// cost is a cubic in that of the cell size between them. For functions that are smooth in logarithms, as sums
-// of powers are.
-class CostTable {
-public:
-    // The function is called once for each size that is needed, from `range.min` on, and directly for sizes
-    // more than three octaves outside of the range.
-    CostTable(CostFunction cost, const CellSizeRange& range, std::pmr::memory_resource* memory);
-
-    double operator()(double log_size);
-
-private:
-    double value(int node); // logarithm of the cost there
-
-    CostFunction cost_;
-    double log_min_;
-    int last_;             // node in the range; the first is 0
-    Array<double> values_; // from node -margin on; NaN where not asked for yet
-};
 
 // ---- cost functions of users ------------------------------------------------------------------------
 

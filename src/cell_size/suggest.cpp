@@ -111,36 +111,22 @@ vox_cell_size_result suggest_paper(const vox_cell_size_desc& desc, const CellSiz
             : format("%" PRIu64 " tets of no size: mean box side %g", stats.tets, stats.mean_box_side));
 }
 
-constexpr double near = 1e-4; // of the cell size; no model is more accurate
+// No model is more accurate.
+constexpr Fineness model_fineness{
+    .scans_per_octave = 3, .least_scans = 12, .tolerance = 1e-3, .zone_tolerance = 1e-5};
 
 vox_cell_size_result suggest_reference(const vox_cell_size_desc& desc, const CellSizeScene& scene,
                                        const CostWeights& weights) {
     const ReferenceModel model(scene, is_dense(desc), weights);
-    std::optional<CellSizeRange> range = model.range();
-    if (!range) throw_no_size(scene.geometry.stats);
-    vox_cell_size_result result{};
-    if (is_dense(desc))
-        result.min_cell_size = model.least_cell_size(static_cast<double>(desc.byte_budget), *range);
-    range->min = std::max(range->min, result.min_cell_size);
-    range->max = std::max(range->max, range->min);
-    const Fineness coarse{.scans_per_octave = 5, .least_scans = 24, .tolerance = near};
-    CostMinimum best = minimise(of_size(model), *range, coarse);
-    // Lengths of lists change the cost from one 16th of an octave to the next, where they were counted.
-    const Fineness fineness{
-        .scans_per_octave = scene.budget.listed > 0 ? 16.0 : 5.0, .least_scans = 24, .tolerance = near};
-    if (scene.budget.listed > 0) {
-        const CostMinimum fine = minimise(
-            of_size(model),
-            {std::max(range->min, best.cell_size / 3), std::min(range->max, best.cell_size * 3)}, fineness);
-        if (fine.cost < best.cost) best = fine;
-    }
-    // Sizes between those of the search may cost a little less.
-    const CostFunction curve = [&](double log_size) {
-        return std::max(model(std::exp2(log_size)), best.cost);
-    };
-    write(result, desc, scene.geometry, best,
-          zone_around(best, (1 + desc.zone_loss) * best.cost, curve, *range, fineness), curve,
-          model.terms(best.cell_size));
+    if (!model.range()) throw_no_size(scene.geometry.stats);
+    CellSizeRange range = *model.range();
+    double least = 0;
+    if (is_dense(desc)) least = model.least_cell_size(static_cast<double>(desc.byte_budget), range);
+    range.min = std::max(range.min, least);
+    range.max = std::max(range.max, range.min);
+    vox_cell_size_result result = suggest_by(
+        desc, scene.geometry, [&](double cell_size) { return model.terms(cell_size); }, range, range);
+    result.min_cell_size = least;
     return result;
 }
 
@@ -149,26 +135,15 @@ vox_cell_size_result suggest_fast(const vox_cell_size_desc& desc, const CellSize
     const vox_geometry& stats = scene.geometry.stats;
     const FastModel model(scene, weights);
     if (stats.tets == 0 || !(stats.mean_box_side > 0)) throw_no_size(stats);
-    vox_cell_size_result result{};
-    const std::optional<CellSizeRange> range = model.range();
-    if (!range) { // no body is near another one: any size will do, so a usual one for when some are
-        const double usual = 2 * stats.mean_box_side;
-        write(result, desc, scene.geometry, {usual, model(usual)},
-              {stats.mean_box_side / 8, stats.mean_box_side * 64}, of_size(model),
-              model.terms(usual, FastModel::Alignment::average));
-        return result;
-    }
-    CostTable table(of_size(model), *range, scene.memory);
-    // As many scans as there are sizes in the table.
-    const Fineness fineness{.scans_per_octave = 2, .least_scans = 8, .tolerance = near};
-    CostMinimum best = minimise([&](double log_size) { return table(log_size); }, *range, fineness);
-    best.cost = model(best.cell_size);
-    // Between its sizes the table may be a little below the least cost.
-    const CostFunction curve = [&](double log_size) { return std::max(table(log_size), best.cost); };
-    write(result, desc, scene.geometry, best,
-          zone_around(best, (1 + desc.zone_loss) * best.cost, curve, *range, fineness), curve,
-          model.terms(best.cell_size, FastModel::Alignment::average));
-    return result;
+    const auto terms = [&](double cell_size) {
+        return model.terms(cell_size, FastModel::Alignment::average);
+    };
+    if (const std::optional<CellSizeRange> range = model.range())
+        return suggest_by(desc, scene.geometry, terms, *range, *range);
+    // No body is near another one: any size will do, so a usual one for when some are.
+    const double usual = 2 * stats.mean_box_side;
+    return suggest_by(desc, scene.geometry, terms, {usual, usual},
+                      {stats.mean_box_side / 8, stats.mean_box_side * 64});
 }
 
 } // namespace
@@ -188,17 +163,15 @@ vox_cell_size_result suggest(const vox_cell_size_desc& desc, CellSizeScene& scen
 
 vox_cell_size_result suggest_by(const vox_cell_size_desc& desc, const Geometry& geometry,
                                 const std::function<CostTerms(double cell_size)>& terms,
-                                const CellSizeRange& range) {
-    const Fineness fineness{.tolerance = near};
+                                const CellSizeRange& range, const CellSizeRange& whole) {
     const CostFunction cost = [&](double log_size) { return terms(std::exp2(log_size)).cost(); };
-    const CostMinimum best = minimise(cost, range, fineness);
+    const CostMinimum best = minimise(cost, range, model_fineness);
     // Sizes between those of the search may cost a little less.
     const CostFunction curve = [&](double log_size) { return std::max(cost(log_size), best.cost); };
     vox_cell_size_result result{};
-    write(
-        result, desc, geometry, best,
-        zone_around(best, (1 + desc.zone_loss) * best.cost, curve, {range.min / 8, range.max * 8}, fineness),
-        curve, terms(best.cell_size));
+    write(result, desc, geometry, best,
+          zone_around(best, (1 + desc.zone_loss) * best.cost, curve, whole, model_fineness), curve,
+          terms(best.cell_size));
     return result;
 }
 

@@ -25,10 +25,9 @@ void check_suggest_desc(vox_cell_size_desc& desc);
 vox_cell_size_result suggest(const vox_cell_size_desc& desc, CellSizeScene& scene,
                              const CostWeights& weights);
 
-// The same for a cost that is described elsewhere, whose terms are given: it is least in `range`, and the
-// zone reaches three octaves beyond that at most.
+// The same for a cost whose terms are given: it is least in `range`, and the zone is within `whole`.
 vox_cell_size_result suggest_by(const vox_cell_size_desc& desc, const Geometry& geometry,
                                 const std::function<CostTerms(double cell_size)>& terms,
-                                const CellSizeRange& range);
+                                const CellSizeRange& range, const CellSizeRange& whole);
 
 } // namespace vox

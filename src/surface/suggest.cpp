@@ -156,8 +156,9 @@ vox_cell_size_result suggest_for_surfaces(const vox_cell_size_desc& desc, CellSi
     scene.prepare(desc.model); // finds positions that are not finite
     check_size(scene.geometry.stats);
     SurfaceModel model(scene.bodies, scene.memory);
-    return suggest_by(
-        desc, scene.geometry, [&](double cell_size) { return model.terms(cell_size); }, model.range());
+    const CellSizeRange range = model.range();
+    return suggest_by(desc, scene.geometry, [&](double cell_size) { return model.terms(cell_size); }, range,
+                      {range.min / 8, range.max * 8});
 }
 
 } // namespace vox

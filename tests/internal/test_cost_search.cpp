@@ -1,15 +1,12 @@
-// The search for the least cost, and costs from a table, over functions whose least value is known.
+// The search for the least cost, over functions whose least value is known.
 #include "cell_size/search.hpp"
 #include "support/suite.h"
 
 #include <cmath>
-#include <memory_resource>
 
 using namespace vox;
 
 namespace {
-
-std::pmr::memory_resource* const heap = std::pmr::new_delete_resource();
 
 START_TEST(minimum_of_a_power_law) {
     // a / d^3 + b d^3 is least at (a / b)^(1/6).
@@ -29,61 +26,32 @@ START_TEST(minimum_of_a_power_law) {
 }
 END_TEST
 
-// A table of two costs an octave gives the others and the place of the least, with few calls of the function.
-START_TEST(table_of_a_cost) {
-    int calls = 0;
-    const auto cost = [&](double d) {
-        ++calls;
-        return 3 / (d * d * d) + 5 / d + 2 + 0.5 * d * d * d;
-    };
+START_TEST(zones_and_curves) {
+    const auto cost = [](double d) { return 3 / (d * d * d) + 5 / d + 2 + 0.5 * d * d * d; };
     const CellSizeRange range{0.05, 40};
     const CostMinimum best = minimise(of_size(cost), range);
-    CostTable table(of_size(cost), range, heap);
-    const CostFunction tabulated = [&](double d) { return table(d); };
-    calls = 0;
-    CostMinimum found =
-        minimise(tabulated, range, {.scans_per_octave = 4, .least_scans = 8, .tolerance = 1e-4});
-    found.cost = cost(found.cell_size);
-    ck_assert_double_le(found.cost, 1.0005 * best.cost);
-    for (double d = 0.02; d < 100; d *= 1.01) (void)table(std::log2(d));
-    ck_assert_int_le(calls, 2 + 2 * 15);
-    for (double d = 0.02; d < 100; d *= 1.01)
-        ck_assert_double_eq_tol(table(std::log2(d)), cost(d), 0.01 * cost(d));
-    ck_assert_double_eq_tol(table(std::log2(1e-6)), cost(1e-6), 1e-12 * cost(1e-6)); // beyond the table
-    ck_assert_double_eq_tol(table(std::log2(1e9)), cost(1e9), 1e-12 * cost(1e9));
-    // The zone, and points of the curve.
-    const CellSizeRange zone = zone_around(found, 1.05 * found.cost, tabulated, range);
-    const CellSizeRange expected = zone_around(best, 1.05 * best.cost, of_size(cost), range);
-    ck_assert_double_eq_tol(zone.min, expected.min, 0.01 * expected.min);
-    ck_assert_double_eq_tol(zone.max, expected.max, 0.01 * expected.max);
-    const CellSizeRange all = zone_around(found, 1e9 * found.cost, tabulated, range);
-    const CellSizeRange none = zone_around(found, found.cost, tabulated, range);
+    const CellSizeRange all = zone_around(best, 1e9 * best.cost, of_size(cost), range);
+    const CellSizeRange none = zone_around(best, best.cost, of_size(cost), range);
     ck_assert_double_eq(all.min, range.min);
     ck_assert_double_eq(all.max, range.max);
-    ck_assert_double_eq(none.min, found.cell_size);
-    ck_assert_double_eq(none.max, found.cell_size);
+    ck_assert_double_eq(none.min, best.cell_size);
+    ck_assert_double_eq(none.max, best.cell_size);
+    // A coarse zone ends within its tolerance of the limit, inside.
+    const double limit = 1.05 * best.cost;
+    const CellSizeRange zone = zone_around(best, limit, of_size(cost), range, {.zone_tolerance = 1e-5});
+    for (const double end : {zone.min, zone.max}) {
+        ck_assert_double_le(cost(end), limit);
+        ck_assert_double_ge(cost(end), (1 - 1e-5) * limit);
+    }
     vox_cost_sample curve[VOX_CURVE_CAPACITY];
     std::uint32_t count = 0;
-    draw_curve(tabulated, {0.1, 6.4}, curve, count);
+    draw_curve(of_size(cost), {0.1, 6.4}, curve, count);
     ck_assert_uint_eq(count, VOX_CURVE_CAPACITY);
     for (std::uint32_t i = 0; i < count; ++i) {
         ck_assert_double_eq_tol(curve[i].cell_size, 0.1 * std::pow(64, i / (count - 1.0)),
                                 1e-12 * curve[i].cell_size);
-        ck_assert_double_eq_tol(curve[i].cost, cost(curve[i].cell_size), 0.01 * curve[i].cost);
+        ck_assert_double_eq_tol(curve[i].cost, cost(curve[i].cell_size), 1e-12 * curve[i].cost);
     }
-    // All that a suggestion asks of it, with few calls.
-    calls = 0;
-    CostTable asked(of_size(cost), range, heap);
-    const CostFunction again = [&](double d) { return asked(d); };
-    const CostMinimum least =
-        minimise(again, range, {.scans_per_octave = 4, .least_scans = 8, .tolerance = 1e-4});
-    (void)zone_around(least, 1.05 * least.cost, again, range);
-    draw_curve(again, {least.cell_size / 8, least.cell_size * 8}, curve, count);
-    ck_assert_int_le(calls, 2 + 2 * 12);
-    CostTable point(of_size(cost), {3, 3}, heap);
-    ck_assert_double_eq(minimise([&](double d) { return point(d); }, {3, 3}).cell_size, 3);
-    const CostFunction nothing = [](double) { return 0.0; };
-    ck_assert_double_eq(CostTable(nothing, range, heap)(1), 0);
 }
 END_TEST
 
@@ -106,6 +74,6 @@ END_TEST
 SUITE(cost_search) {
     TCase* tests = add_case(suite, "cost_search");
     tcase_add_test(tests, minimum_of_a_power_law);
-    tcase_add_test(tests, table_of_a_cost);
+    tcase_add_test(tests, zones_and_curves);
     tcase_add_test(tests, minimum_at_an_end_and_where_nothing_is_finite);
 }

@@ -65,7 +65,7 @@ START_TEST(the_model_looks_at_few) {
             // All pools together: windows of unlike sizes have one each.
             ck_assert_uint_gt(points, 0);
             ck_assert_uint_gt(looks, 0);
-            ck_assert_msg(points <= 6000 && looks <= 2 * described.budget.most_looks,
+            ck_assert_msg(points <= 6000 && looks <= 2 * described.budget.cells,
                           "%zu tets, kind %d: %llu points, %llu looks", tets, kind,
                           static_cast<unsigned long long>(points), static_cast<unsigned long long>(looks));
             if (tets == sizes[0])
@@ -99,9 +99,9 @@ START_TEST(a_suggestion_looks_at_samples) {
             ck_share(sketched, double(scene.tiles()[b]->tiles.size()), 0.1, "tiles", tets);
         }
     }
-    ck_assert_uint_le(usual(VOX_COST_MODEL_REFERENCE, 1u << 30).most_tets, 8192);
-    ck_assert_uint_le(usual(VOX_COST_MODEL_REFERENCE, 1u << 30).lookups, 256);
-    ck_assert_uint_le(usual(VOX_COST_MODEL_FAST, 1u << 30).lookups, 128);
+    ck_assert_uint_le(usual(VOX_COST_MODEL_REFERENCE, 1u << 30).summed, 8192);
+    ck_assert_uint_le(usual(VOX_COST_MODEL_REFERENCE, 1u << 30).chosen, 256);
+    ck_assert_uint_le(usual(VOX_COST_MODEL_FAST, 1u << 30).chosen, 128);
 }
 END_TEST
 

@@ -87,7 +87,6 @@ double share_of(const BoxSample& sample, const Primitives& primitives) {
     return static_cast<double>(sample.boxes.size()) / static_cast<double>(primitives.count());
 }
 
-constexpr double shares_per_octave = 1; // sizes of the table of shares
 constexpr double curve_octaves = 3;     // that a curve goes beyond the range
 constexpr std::uint64_t measured = 512; // primitives whose edges and sides make the rules
 
@@ -130,19 +129,19 @@ void set_sides(const BoxSample& sample, ForeignRules& rules, std::pmr::memory_re
 namespace {
 
 // What is around fewer boxes is looked at more closely: the boxes seen around one are as coarse^-3.
-double coarseness(const ForeignBudget& budget, std::size_t chosen) {
+double coarseness(const SampleBudget& budget, std::size_t chosen) {
     const double part = static_cast<double>(chosen) / static_cast<double>(budget.chosen);
     return budget.coarse * std::cbrt(std::min(part, 1.0));
 }
 
 } // namespace
 
-ForeignWork::ForeignWork(const ForeignGrid& grid, const ForeignBudget& budget,
+ForeignWork::ForeignWork(const ForeignGrid& grid, const SampleBudget& budget,
                          std::pmr::memory_resource* memory)
     : ForeignWork(grid, budget, sample_boxes(grid.held, grid.held_grown(), budget.held, 1, memory),
                   sample_boxes(grid.those_asking(), grid.desc.radius, budget.asking, 2, memory), memory) {}
 
-ForeignWork::ForeignWork(const ForeignGrid& grid, const ForeignBudget& budget, const BoxSample& held,
+ForeignWork::ForeignWork(const ForeignGrid& grid, const SampleBudget& budget, const BoxSample& held,
                          const BoxSample& asking, std::pmr::memory_resource* memory)
     : centres_(grid.centres()), pairs_(grid.pairs()), same_set_(grid.same_set()),
       around_(grid.desc.cells_queried == VOX_CELLS_QUERIED_27), chosen_(budget.chosen),
@@ -152,7 +151,7 @@ ForeignWork::ForeignWork(const ForeignGrid& grid, const ForeignBudget& budget, c
       asking_chosen_(choose_asking(asking_, budget.chosen, memory)), held_chosen_(memory),
       read_(sum_pairs(asking_, asking_chosen_, held_, coarseness(budget, asking_chosen_.size()),
                       around_ ? Meeting::in_neighbours : Meeting::in_cells, same_set_, memory)),
-      table_{Array<double>(memory), Array<double>(memory)} {
+      memory_(memory) {
     held_sums_ = sum_boxes(grid.held, grid.held_grown(), centres_, budget.summed);
     asking_sums_ = same_set_
                        ? grown_sums(held_sums_, grid.desc.radius - grid.held_grown())
@@ -179,10 +178,7 @@ ForeignWork::ForeignWork(const ForeignGrid& grid, const ForeignBudget& budget, c
     const PlainBox& all = held_sums_.bounds;
     rules_.spacing = std::cbrt(all.side(0) * all.side(1) * all.side(2) / held_sums_.count);
     rules_.radius = asking_sums_.radius;
-    const auto nodes = static_cast<std::size_t>(shares_per_octave *
-                                                (std::log2(range_.max / range_.min) + 2 * curve_octaves)) +
-                       3;
-    for (auto& share : table_) share.resize(nodes, -1);
+    for (auto* shares : {&empty_shares_, &occupied_shares_}) shares->emplace(range_, curve_octaves, memory);
     never_empty_ = same_set_ && !centres_ && grid.desc.radius == 0; // each finds itself
 }
 
@@ -229,99 +225,11 @@ vox_foreign_counts ForeignWork::exactly_at(double d) {
 }
 
 vox_foreign_counts ForeignWork::at(double d, CellsWanted wanted) {
-    const auto share = [&](Share which) {
-        const double place = shares_per_octave * (std::log2(d / range_.min) + curve_octaves);
-        if (!(place >= 0 && place < static_cast<double>(table_[which].size() - 1)))
-            return which == empty ? empty_share(d) : occupied_share(d);
-        const auto node = static_cast<std::size_t>(place);
-        const auto known = [&](std::size_t i) {
-            double& value = table_[which][i];
-            if (value < 0) {
-                const double size =
-                    range_.min * std::exp2(static_cast<double>(i) / shares_per_octave - curve_octaves);
-                value = which == empty ? empty_share(size) : occupied_share(size);
-            }
-            return value;
-        };
-        const double below = known(node), above = known(node + 1), part = place - static_cast<double>(node);
-        // The logarithm is more nearly straight, where there is one.
-        return below > 0 && above > 0 ? below * std::pow(above / below, part)
-                                      : below + part * (above - below);
-    };
-    return with_shares(d, wanted.empty ? share(empty) : 0, wanted.occupied ? share(occupied) : 0);
+    const auto empty = [this](double size) { return empty_share(size); };
+    const auto occupied = [this](double size) { return occupied_share(size); };
+    return with_shares(d, wanted.empty ? empty_shares_->at(d, empty) : 0,
+                       wanted.occupied ? occupied_shares_->at(d, occupied) : 0);
 }
-
-namespace {
-
-// Of a lattice, for counting the cells in it one by one.
-constexpr double least_positions = 32;
-
-// One of the cells that a box meets in a lattice of some position, all equally likely.
-struct SomeCell {
-    double lo[3];
-    double of; // how many there are
-};
-
-double random_unit(std::uint64_t& random) noexcept {
-    return static_cast<double>(next_random(random) >> 11) * 0x1p-53;
-}
-
-SomeCell some_cell(const PlainBox& box, double d, bool around, std::uint64_t& random) noexcept {
-    SomeCell cell{{}, 1};
-    for (int a = 0; a < 3; ++a) {
-        const double before = random_unit(random) * d; // from a plane of the lattice to the box
-        double first = 0, count = std::floor((before + box.side(a)) / d) + 1;
-        if (around) {
-            first = -1;
-            count += 2;
-        }
-        cell.lo[a] = box.lo[a] - before + (first + std::floor(random_unit(random) * count)) * d;
-        cell.of *= count;
-    }
-    return cell;
-}
-
-} // namespace
-
-namespace {
-
-// How many are in a cell, N, from cells in which only a part of all was counted. A count of a part p of them
-// has p times the mean of N, and p^2 times the mean of N (N - 1). With these two, N is taken to follow a
-// negative binomial distribution, or a binomial one where it varies less than by chance.
-class CellCounts {
-public:
-    void add(double weight, double n, double n_times_less_one) noexcept {
-        weight_ += weight;
-        mean_ += weight * n;
-        factorial_ += weight * n_times_less_one;
-    }
-    // Probability that N is 0.
-    double none() const noexcept {
-        const double m = mean_ / weight_, q = excess();
-        if (std::abs(q) < 1e-6) return std::exp(-m);
-        return std::exp(-m / q * std::log1p(q)); // (1 + q)^(-m / q)
-    }
-    // Mean of 1 / (1 + N): the integral of the generating function (1 + q (1 - s))^(-m / q) from 0 to 1.
-    double mean_inverse() const noexcept {
-        const double m = mean_ / weight_, q = excess();
-        if (m < 1e-9) return 1;
-        if (std::abs(q) < 1e-6) return -std::expm1(-m) / m;
-        const double power = 1 - m / q;
-        if (std::abs(power) < 1e-6) return std::log1p(q) / q;
-        return std::expm1(power * std::log1p(q)) / (power * q);
-    }
-
-private:
-    // The variance over the mean, less 1; at least what a number of things can have that are in the cell or
-    // not.
-    double excess() const noexcept {
-        const double m = mean_ / weight_;
-        return m > 0 ? std::max(factorial_ / weight_ / m - m, -0.9) : 0;
-    }
-    double weight_ = 0, mean_ = 0, factorial_ = 0;
-};
-
-} // namespace
 
 double ForeignWork::empty_share(double d) const {
     if (pairs_ || never_empty_) return 0;
@@ -343,6 +251,13 @@ double ForeignWork::empty_share(double d) const {
     }
     return share == 1 ? empty_ones / all : counts.none();
 }
+
+namespace {
+
+// Positions of a lattice in which few cells are looked at one by one.
+constexpr double least_positions = 32;
+
+} // namespace
 
 // Where all lie in a few cells, these are looked at one by one, in as many positions of the lattice as there
 // is time for.
@@ -374,34 +289,17 @@ double ForeignWork::occupied_of_few(double d, double cells_there) const {
 }
 
 double ForeignWork::occupied_share(double d) {
-    if (held_chosen_.empty()) held_chosen_ = choose_asking(held_, chosen_, table_[0].memory());
+    if (held_chosen_.empty()) held_chosen_ = choose_asking(held_, chosen_, memory_);
     const vox_foreign_counts smooth = smooth_at(d);
     const bool both = pairs_ && !same_set_, all_kept = held_.share() == 1 && (!both || asking_.share() == 1);
     // More of them are few where none can be missed for want of what is not in the sample.
     if (smooth.cells * least_positions <=
         static_cast<double>(all_kept ? singly_ : std::min(singly_, looked_cells_)))
         return occupied_of_few(d, smooth.cells) / smooth.stored;
-    std::uint64_t random = 4;
-    double entries = 0, cells = 0;
-    CellCounts counts;
-    const auto count_from = [&](const SampleTree& own, const SampleTree* other, const auto& chosen) {
-        for (std::size_t i = 0; i < looked_cells_; ++i) {
-            const Asking& one = chosen[i * chosen.size() / looked_cells_];
-            const SomeCell cell = some_cell(own.box(one.index), d, false, random);
-            const double weight = one.weight * cell.of * static_cast<double>(chosen.size());
-            const double a = std::max(own.count_meeting(cell.lo, d, rough_) - 1, 0.0),
-                         p = own.share(); // beside itself
-            const double b = other ? other->count_meeting(cell.lo, d, rough_) : 0,
-                         q = other ? other->share() : 1;
-            entries += weight;
-            cells += weight / (1 + a + b);
-            counts.add(weight, a / p + b / q,
-                       a * (a - 1) / (p * p) + 2 * a * b / (p * q) + b * (b - 1) / (q * q));
-        }
-    };
-    count_from(held_, both ? &asking_ : nullptr, held_chosen_);
-    if (both) count_from(asking_, &held_, asking_chosen_);
-    return all_kept ? cells / entries : counts.mean_inverse();
+    OccupiedShare share(d);
+    share.look(held_, both ? &asking_ : nullptr, held_chosen_, looked_cells_, rough_);
+    if (both) share.look(asking_, &held_, asking_chosen_, looked_cells_, rough_);
+    return share.value();
 }
 
 } // namespace vox

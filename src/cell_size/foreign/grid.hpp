@@ -4,8 +4,8 @@
 
 #include "base/array.hpp"
 #include "cell_size/foreign/cost.hpp"
-#include "cell_size/foreign/pairs.hpp"
 #include "cell_size/foreign/primitives.hpp"
+#include "cell_size/pairs.hpp"
 #include "cell_size/search.hpp"
 
 #include <vox/vox_cell_size.h>
@@ -48,21 +48,9 @@ struct ForeignRules {
     double radius;          // mean radius of those that ask
 };
 
-// How closely the primitives are looked at.
-struct ForeignBudget {
-    std::uint64_t summed; // primitives whose boxes are summed up
-    std::uint64_t held;   // boxes that are kept, of those held
-    std::uint64_t asking; // and of those that ask, of which
-    std::size_t chosen;   // so many are looked at with what is around them,
-    double coarse;        // and so coarsely (SampleTree::sample_around)
-    std::size_t cells;    // cells looked at for what is in them, at each size
-    double rough;         // how roughly it is counted (SampleTree::count_meeting)
-    std::size_t singly;   // cells looked at for whether there is anything in them, where those of some
-                          // positions of the lattice are no more
-};
 // For vox_foreign_grid_suggest: a look at 20,000 primitives takes less than half a millisecond, at a million
 // a few.
-inline ForeignBudget quick_look(const ForeignGrid& grid) noexcept {
+inline SampleBudget quick_look(const ForeignGrid& grid) noexcept {
     const std::uint64_t count = std::max(grid.held.count(), grid.those_asking().count());
     const std::uint64_t held = std::clamp<std::uint64_t>(count / 10, 2048, 8192);
     const std::uint64_t chosen = std::min<std::uint64_t>(held / 32, 128);
@@ -71,7 +59,7 @@ inline ForeignBudget quick_look(const ForeignGrid& grid) noexcept {
 // What that takes, about.
 inline constexpr std::size_t quick_look_bytes = std::size_t{1} << 19;
 // For vox_foreign_grid_count. The tests hold its counts to within 5 % of those in a filled grid.
-inline constexpr ForeignBudget thorough_look{
+inline constexpr SampleBudget thorough_look{
     ~std::uint64_t{0}, std::uint64_t{1} << 18, std::uint64_t{1} << 15, 4096, 1, 16384, 0, 131072};
 
 // Counts that take longer than the others.
@@ -84,7 +72,7 @@ class ForeignWork {
 public:
     // Looks at the primitives. All memory, also that of at(), comes from `memory`. Throws INVALID_ARGUMENT,
     // INVALID_MESH, NON_FINITE, LIMIT.
-    ForeignWork(const ForeignGrid& grid, const ForeignBudget& budget, std::pmr::memory_resource* memory);
+    ForeignWork(const ForeignGrid& grid, const SampleBudget& budget, std::pmr::memory_resource* memory);
     ForeignWork(const ForeignWork&) = delete;
     ForeignWork& operator=(const ForeignWork&) = delete;
 
@@ -109,9 +97,7 @@ public:
     std::uint64_t pairs_looked_at() const noexcept { return read_.added(); }
 
 private:
-    enum Share { empty, occupied }; // of visits, of entries
-
-    ForeignWork(const ForeignGrid& grid, const ForeignBudget& budget, const BoxSample& held,
+    ForeignWork(const ForeignGrid& grid, const SampleBudget& budget, const BoxSample& held,
                 const BoxSample& asking, std::pmr::memory_resource* memory);
     double empty_share(double cell_size) const;
     double occupied_share(double cell_size);
@@ -119,7 +105,7 @@ private:
     vox_foreign_counts with_shares(double cell_size, double empty_part, double occupied_part) const noexcept;
 
     bool centres_, pairs_, same_set_, around_;
-    std::size_t chosen_, looked_cells_, singly_; // of a ForeignBudget
+    std::size_t chosen_, looked_cells_, singly_; // of a SampleBudget
     double rough_;
     PrimitiveSums held_sums_, asking_sums_;
     SampleTree held_, asking_;
@@ -129,7 +115,8 @@ private:
     bool has_size_ = false, never_empty_ = false;
     CellSizeRange range_{1, 1};
     ForeignRules rules_{};
-    std::array<Array<double>, 2> table_; // of each Share, from range_.min on; -1 where not known yet
+    std::pmr::memory_resource* memory_;
+    std::optional<ShareTable> empty_shares_, occupied_shares_; // of visits, of entries
 };
 
 } // namespace vox

@@ -393,8 +393,8 @@ void for_random_places(std::uint64_t count, std::uint64_t wanted, std::uint64_t 
     }
     const double part = static_cast<double>(count) / static_cast<double>(wanted);
     for (std::uint64_t i = 0; i < wanted; ++i) {
-        const double place = static_cast<double>(next_random(seed) >> 11) * 0x1p-53;
-        visit(std::min(static_cast<std::uint64_t>((static_cast<double>(i) + place) * part), count - 1));
+        visit(std::min(static_cast<std::uint64_t>((static_cast<double>(i) + next_unit(seed)) * part),
+                       count - 1));
     }
 }
 
@@ -412,8 +412,7 @@ void sample_packed(const PackedPrimitives& packed, double radius, std::uint64_t 
             box.lo[k] = double{low[k]} - radius;
             box.hi[k] = double{high[k]} + radius;
         }
-        sample.boxes.push_back(box);
-        sample.ids.push_back(static_cast<std::uint32_t>(i));
+        sample.add(box, static_cast<std::uint32_t>(i));
     });
 }
 
@@ -464,9 +463,7 @@ PrimitiveSums grown_sums(PrimitiveSums sums, double by) noexcept {
 BoxSample sample_boxes(const Primitives& primitives, double grown, std::uint64_t wanted, std::uint64_t seed,
                        std::pmr::memory_resource* memory) {
     BoxSample sample(memory);
-    const auto size = static_cast<std::size_t>(std::min(primitives.count(), wanted));
-    sample.boxes.reserve(size);
-    sample.ids.reserve(size);
+    sample.reserve(static_cast<std::size_t>(std::min(primitives.count(), wanted)));
     if (PackedPrimitives::fits(primitives) && !primitives.has_radii()) {
         const PackedPrimitives packed(primitives);
         const double radius = primitives.common_radius() + grown;
@@ -489,8 +486,7 @@ BoxSample sample_boxes(const Primitives& primitives, double grown, std::uint64_t
     for_random_places(primitives.count(), wanted, seed, [&](std::uint64_t i) {
         PlainBox box = primitives.box(i);
         box.grow(primitives.radius(i) + grown);
-        sample.boxes.push_back(box);
-        sample.ids.push_back(static_cast<std::uint32_t>(i));
+        sample.add(box, static_cast<std::uint32_t>(i));
     });
     return sample;
 }

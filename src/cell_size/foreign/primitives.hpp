@@ -3,7 +3,7 @@
 
 #include "base/array.hpp"
 #include "base/scene.hpp"
-#include "cell_size/lookups.hpp"
+#include "cell_size/pairs.hpp"
 
 #include <vox/vox_cell_size.h>
 
@@ -12,30 +12,6 @@
 #include <memory_resource>
 
 namespace vox {
-
-struct PlainBox {
-    double lo[3], hi[3];
-
-    double side(int axis) const noexcept { return hi[axis] - lo[axis]; }
-    double longest_side() const noexcept { return std::max(std::max(side(0), side(1)), side(2)); }
-    void grow(double by) noexcept {
-        for (int a = 0; a < 3; ++a) {
-            lo[a] -= by;
-            hi[a] += by;
-        }
-    }
-    PlainBox centre() const noexcept { // as a box without sides
-        PlainBox point;
-        for (int a = 0; a < 3; ++a) point.lo[a] = point.hi[a] = lo[a] + (hi[a] - lo[a]) / 2;
-        return point;
-    }
-    void include(const PlainBox& other) noexcept {
-        for (int a = 0; a < 3; ++a) {
-            lo[a] = std::min(lo[a], other.lo[a]);
-            hi[a] = std::max(hi[a], other.hi[a]);
-        }
-    }
-};
 
 // The caller's primitives, borrowed.
 class Primitives {
@@ -97,11 +73,6 @@ PrimitiveSums grown_sums(PrimitiveSums sums, double by) noexcept;
 // Boxes of about `wanted` primitives, with radii and `grown` beyond: all of them, or one of each part of the
 // list, at a place that is independent from part to part and from seed to seed. So a pair of one primitive
 // from each of two samples is as likely as any other. Throws as Primitives::box().
-struct BoxSample {
-    explicit BoxSample(std::pmr::memory_resource* memory) : boxes(memory), ids(memory) {}
-    Array<PlainBox> boxes;
-    Array<std::uint32_t> ids; // ascending
-};
 BoxSample sample_boxes(const Primitives& primitives, double grown, std::uint64_t wanted, std::uint64_t seed,
                        std::pmr::memory_resource* memory);
 

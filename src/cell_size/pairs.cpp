@@ -1,7 +1,7 @@
 // Groups of far boxes are represented by one as in J. Barnes, P. Hut, A hierarchical O(N log N)
 // force-calculation algorithm, Nature 324, 1986, but by one that is drawn from them, so that no sum is
 // biased. The order of boxes is that of G. M. Morton, A computer oriented geodetic data base, IBM 1966.
-#include "cell_size/foreign/pairs.hpp"
+#include "cell_size/pairs.hpp"
 #include "base/array.hpp"
 
 #include <algorithm>
@@ -11,24 +11,6 @@
 #include <limits>
 
 namespace vox {
-
-// ---- sums -----------------------------------------------------------------------------------------
-
-void PiecewiseMoments::finish() noexcept {
-    for (std::size_t c = 1; c < classes; ++c) sums_[c].add(sums_[c - 1]);
-}
-
-// The class of the cell size itself is added in part, so that the sum is continuous.
-double PiecewiseMoments::at(double d) const noexcept {
-    const double ratio = d * inverse_least_;
-    const std::size_t c = class_of_ratio(ratio, step_bits);
-    if (c == 0) return std::max(sums_[0].at(d), 0.0); // rounding can leave a little less
-    if (c >= classes) return std::max(sums_.back().at(d), 0.0);
-    constexpr std::uint64_t rest = std::uint64_t{1} << (52 - step_bits);
-    const double part = static_cast<double>(std::bit_cast<std::uint64_t>(ratio) & (rest - 1)) / double{rest};
-    const double below = sums_[c - 1].at(d);
-    return std::max(below + part * (sums_[c].at(d) - below), 0.0);
-}
 
 // ---- tree -----------------------------------------------------------------------------------------
 
@@ -92,15 +74,6 @@ void sort_by_place(const PlainBox* boxes, Keyed* keys, Keyed* other, std::size_t
 } // namespace
 
 namespace {
-
-constexpr double endless = std::numeric_limits<double>::infinity();
-// They are away from everything, and add nothing to a box.
-constexpr FourBoxes no_boxes{{{endless, endless, endless, endless},
-                              {endless, endless, endless, endless},
-                              {endless, endless, endless, endless}},
-                             {{-endless, -endless, -endless, -endless},
-                              {-endless, -endless, -endless, -endless},
-                              {-endless, -endless, -endless, -endless}}};
 
 PlainBox box_of(const FourBoxes& boxes) noexcept {
     PlainBox box = boxes.get(0);
@@ -224,35 +197,29 @@ bool SampleTree::meets_any(const double (&lo)[3], double side) const noexcept {
 
 // ---- asking ---------------------------------------------------------------------------------------
 
-Array<Asking> choose_asking(const SampleTree& tree, std::size_t wanted, std::pmr::memory_resource* memory) {
+Array<Asking> choose_of_kinds(std::span<const std::uint32_t> kind_of, std::size_t wanted, double each,
+                              std::pmr::memory_resource* memory) {
     Array<Asking> chosen(memory);
-    const std::size_t count = tree.size();
-    const double each = 1 / tree.share();
+    const std::size_t count = kind_of.size();
     if (count <= wanted) {
         chosen.reserve(count);
         for (std::size_t i = 0; i < count; ++i) chosen.push_back({i, each});
         return chosen;
     }
-    // By the octaves of the own size and of that of 16 neighbours; the order in a kind is that of places.
-    const auto octave = [](double size) {
-        return static_cast<int>(std::bit_cast<std::uint64_t>(size) >> 52);
-    };
     struct Kind {
-        int own, crowd;
-        std::uint32_t count;
+        std::uint32_t kind, count;
     };
     Array<Kind> kinds(memory);
-    Array<std::uint32_t> kind_of(count, memory);
+    Array<std::uint32_t> place_of(count, memory);
     std::size_t k = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        const int own = octave(tree.box(i).longest_side()), crowd = octave(tree.crowd_side(i));
-        const auto is_same = [&](const Kind& kind) { return kind.own == own && kind.crowd == crowd; };
-        if (kinds.empty() || !is_same(kinds[k])) { // often that of the box before
+        const auto is_same = [&](const Kind& kind) { return kind.kind == kind_of[i]; };
+        if (kinds.empty() || !is_same(kinds[k])) { // often that of the one before
             k = static_cast<std::size_t>(std::find_if(kinds.begin(), kinds.end(), is_same) - kinds.begin());
-            if (k == kinds.size()) kinds.push_back({own, crowd, 0});
+            if (k == kinds.size()) kinds.push_back({kind_of[i], 0});
         }
         ++kinds[k].count;
-        kind_of[i] = static_cast<std::uint32_t>(k);
+        place_of[i] = static_cast<std::uint32_t>(k);
     }
     Array<std::uint32_t> begin(memory), sorted(count, memory);
     begin.reserve(kinds.size());
@@ -261,22 +228,20 @@ Array<Asking> choose_asking(const SampleTree& tree, std::size_t wanted, std::pmr
         begin.push_back(before);
         before += kind.count;
     }
-    for (std::size_t i = 0; i < count; ++i) sorted[begin[kind_of[i]]++] = static_cast<std::uint32_t>(i);
+    for (std::size_t i = 0; i < count; ++i) sorted[begin[place_of[i]]++] = static_cast<std::uint32_t>(i);
 
     std::uint64_t random = 1;
     std::size_t first = 0;
     for (const Kind& kind : kinds) {
-        // Half of the places go to the kinds by their number, half evenly: a few large boxes, or few that are
-        // close together, can cost as much as many others.
         const auto there = static_cast<double>(kind.count);
         const double part = (there / static_cast<double>(count) + 1 / static_cast<double>(kinds.size())) / 2;
         const auto places = std::min(std::size_t{kind.count},
                                      static_cast<std::size_t>(static_cast<double>(wanted) * part) + 1);
         const double step = there / static_cast<double>(places);
-        for (std::size_t k = 0; k < places; ++k) {
-            const double place = static_cast<double>(next_random(random) >> 11) * 0x1p-53;
-            const auto at = std::min(static_cast<std::size_t>((static_cast<double>(k) + place) * step),
-                                     std::size_t{kind.count} - 1);
+        for (std::size_t p = 0; p < places; ++p) {
+            const auto at =
+                std::min(static_cast<std::size_t>((static_cast<double>(p) + next_unit(random)) * step),
+                         std::size_t{kind.count} - 1);
             chosen.push_back({sorted[first + at], each * step});
         }
         first += kind.count;
@@ -284,13 +249,22 @@ Array<Asking> choose_asking(const SampleTree& tree, std::size_t wanted, std::pmr
     return chosen;
 }
 
+// By the octaves of the own size and of that of 16 neighbours; the order in a kind is that of places.
+Array<Asking> choose_asking(const SampleTree& tree, std::size_t wanted, std::pmr::memory_resource* memory) {
+    const auto octave = [](double size) {
+        return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(size) >> 52);
+    };
+    Array<std::uint32_t> kind_of(tree.size(), memory);
+    if (tree.size() > wanted)
+        for (std::size_t i = 0; i < tree.size(); ++i)
+            kind_of[i] = octave(tree.box(i).longest_side()) << 12 | octave(tree.crowd_side(i));
+    return choose_of_kinds(kind_of, wanted, 1 / tree.share(), memory);
+}
+
 // ---- pairs ----------------------------------------------------------------------------------------
 
-namespace {
-
-// Of four boxes, of which each counts `weights` times.
 void add_common_cells(const PlainBox& box, const FourBoxes& others, const double (&weights)[4],
-                      PiecewiseMoments& sums) noexcept {
+                      PiecewiseMoments& sums) {
     double gap[3][4], most[4], moments[4][4];
     for (int k = 0; k < 3; ++k)
         for (std::size_t i = 0; i < 4; ++i)
@@ -307,7 +281,9 @@ void add_common_cells(const PlainBox& box, const FourBoxes& others, const double
         if (weights[i] > 0) sums.add(most[i], {{moments[0][i], moments[1][i], moments[2][i], moments[3][i]}});
 }
 
-void add_neighbours(const PlainBox& a, const PlainBox& b, double weight, PiecewiseMoments& sums) noexcept {
+namespace {
+
+void add_neighbours(const PlainBox& a, const PlainBox& b, double weight, PiecewiseMoments& sums) {
     double x[3];
     for (int k = 0; k < 3; ++k) x[k] = std::abs(a.lo[k] - b.lo[k]);
     if (x[0] > x[1]) std::swap(x[0], x[1]);
@@ -338,40 +314,85 @@ PiecewiseMoments sum_pairs(const SampleTree& from, const Array<Asking>& asking, 
     PlainBox bounds = from.bounds();
     bounds.include(held.bounds());
     const double longest = bounds.longest_side();
-    PiecewiseMoments sums(longest > 0 ? longest : 1, memory);
+    PiecewiseMoments sums((longest > 0 ? longest : 1) * 0x1p-32, memory);
     std::uint64_t random = 2;
     for (const Asking& ask : asking) {
         const PlainBox box = from.box(ask.index);
         const std::uint32_t id = from.id(ask.index);
         const double each = ask.weight / held.share();
-        const auto weight = [&](std::size_t i) { return same_set && held.id(i) == id ? 0 : each; };
-        const auto add = [&](const FourBoxes& others, const double(&weights)[4]) {
-            if (meeting == Meeting::in_cells) return add_common_cells(box, others, weights, sums);
-            for (std::size_t i = 0; i < 4; ++i)
-                if (weights[i] > 0) add_neighbours(box, others.get(i), weights[i], sums);
-        };
-        FourBoxes some; // those that stand for others, until there are four
-        double weights_of_some[4];
-        std::size_t count_of_some = 0;
-        held.sample_around(
-            box, coarse, random,
-            [&](std::size_t first, std::size_t count) {
-                double weights[4] = {0, 0, 0, 0};
-                for (std::size_t i = 0; i < count; ++i) weights[i] = weight(first + i);
-                add(held.four(first), weights);
-            },
-            [&](std::size_t i, double number) {
-                some.set(count_of_some, held.box(i));
-                weights_of_some[count_of_some] = number * weight(i);
-                if (++count_of_some < 4) return;
-                add(some, weights_of_some);
-                count_of_some = 0;
+        for_fours_around(
+            box, held, coarse, random,
+            [&](const FourBoxes& others, const std::uint32_t(&ids)[4], const double(&numbers)[4]) {
+                double weights[4];
+                for (std::size_t i = 0; i < 4; ++i)
+                    weights[i] = same_set && ids[i] == id ? 0 : each * numbers[i];
+                if (meeting == Meeting::in_cells) return add_common_cells(box, others, weights, sums);
+                for (std::size_t i = 0; i < 4; ++i)
+                    if (weights[i] > 0) add_neighbours(box, others.get(i), weights[i], sums);
             });
-        std::fill(weights_of_some + count_of_some, weights_of_some + 4, 0.0);
-        if (count_of_some > 0) add(some, weights_of_some);
     }
     sums.finish();
     return sums;
+}
+
+// ---- what is in cells -----------------------------------------------------------------------------
+
+SomeCell some_cell(const PlainBox& box, double d, bool around, std::uint64_t& random) noexcept {
+    SomeCell cell{{}, 1};
+    for (int a = 0; a < 3; ++a) {
+        const double before = next_unit(random) * d; // from a plane of the lattice to the box
+        double first = 0, count = std::floor((before + box.side(a)) / d) + 1;
+        if (around) {
+            first = -1;
+            count += 2;
+        }
+        cell.lo[a] = box.lo[a] - before + (first + std::floor(next_unit(random) * count)) * d;
+        cell.of *= count;
+    }
+    return cell;
+}
+
+double CellCounts::none() const noexcept {
+    const double m = mean_ / weight_, q = excess();
+    if (std::abs(q) < 1e-6) return std::exp(-m);
+    return std::exp(-m / q * std::log1p(q)); // (1 + q)^(-m / q)
+}
+
+// The integral of the generating function (1 + q (1 - s))^(-m / q) from 0 to 1.
+double CellCounts::mean_inverse() const noexcept {
+    const double m = mean_ / weight_, q = excess();
+    if (m < 1e-9) return 1;
+    if (std::abs(q) < 1e-6) return -std::expm1(-m) / m;
+    const double power = 1 - m / q;
+    if (std::abs(power) < 1e-6) return std::log1p(q) / q;
+    return std::expm1(power * std::log1p(q)) / (power * q);
+}
+
+// The variance over the mean, less 1; at least what a number of things can have that are in the cell or not.
+double CellCounts::excess() const noexcept {
+    const double m = mean_ / weight_;
+    return m > 0 ? std::max(factorial_ / weight_ / m - m, -0.9) : 0;
+}
+
+void OccupiedShare::look(const SampleTree& own, const SampleTree* other, const Array<Asking>& chosen,
+                         std::size_t cells, double rough) noexcept {
+    const double p = own.share(), q = other ? other->share() : 1;
+    const bool all_kept = p == 1 && q == 1;
+    for (std::size_t i = 0; i < cells; ++i) {
+        const Asking& one = chosen[i * chosen.size() / cells];
+        const SomeCell cell = some_cell(own.box(one.index), size_, false, random_);
+        const double weight = one.weight * cell.of * static_cast<double>(chosen.size());
+        const double a = std::max(own.count_meeting(cell.lo, size_, rough) - 1, 0.0); // beside itself
+        const double b = other ? other->count_meeting(cell.lo, size_, rough) : 0;
+        if (all_kept || a + b > crowd_) {
+            entries_ += weight;
+            cells_ += weight / (1 + a / p + b / q);
+        } else {
+            others_ += weight;
+            counts_.add(weight, a / p + b / q,
+                        a * (a - 1) / (p * p) + 2 * a * b / (p * q) + b * (b - 1) / (q * q));
+        }
+    }
 }
 
 } // namespace vox
