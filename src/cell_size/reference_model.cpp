@@ -69,17 +69,11 @@ ReferenceModel::SizeClass::SizeClass(int e, bool may_meet_points, std::pmr::memo
 ReferenceModel::ReferenceModel(const CellSizeScene& scene, bool dense, const CostWeights& weights)
     : weights_(weights), dense_(dense), budget_(scene.budget), classes_(scene.memory),
       points_chosen_(scene.memory) {
-    Array<Numbered> numbers(scene.memory);
-    numbers.reserve(scene.bodies.size());
-    std::uint32_t vertices = 0;
     for (const Body& body : scene.bodies) {
-        numbers.push_back({vertices, vertices + body.vertex_count});
-        vertices += body.vertex_count;
+        vertices_ += static_cast<double>(body.vertex_count);
         tets_ += static_cast<double>(body.tets.size());
     }
-    vertices_ = static_cast<double>(vertices);
-    Array<TetBox> boxes(scene.memory);
-    sample_boxes(scene, numbers, boxes);
+    const Array<TetBox> boxes = sample_boxes(scene);
     if (classes_.empty()) return;
     int smallest = classes_[0].exponent, largest = smallest;
     for (const SizeClass& c : classes_) {
@@ -88,11 +82,10 @@ ReferenceModel::ReferenceModel(const CellSizeScene& scene, bool dense, const Cos
     }
     range_ = {std::ldexp(1.0, smallest - 3), std::ldexp(1.0, largest + 5)};
     occupied_shares_.emplace(*range_, 0, scene.memory);
-    count_points(scene, numbers, boxes);
+    count_points(scene, boxes);
 }
 
-void ReferenceModel::sample_boxes(const CellSizeScene& scene, std::span<const Numbered>,
-                                  Array<TetBox>& boxes) {
+Array<ReferenceModel::TetBox> ReferenceModel::sample_boxes(const CellSizeScene& scene) {
     Array<Box> of_bodies(scene.memory);
     Box all = empty_box;
     for (const Body& body : scene.bodies) {
@@ -105,8 +98,11 @@ void ReferenceModel::sample_boxes(const CellSizeScene& scene, std::span<const Nu
     fast::find_pairs(of_bodies, {.bodies = scene.bodies}, buffers, pairs);
     const fast::Pair* pair = pairs.data(); // sorted by a
     const fast::Pair* const last_pair = pair + pairs.size();
-    for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
+    Array<TetBox> boxes(scene.memory);
+    std::uint32_t first = 0;
+    for (std::uint32_t b = 0; b < scene.bodies.size(); first += scene.bodies[b].vertex_count, ++b) {
         const Body& body = scene.bodies[b];
+        const std::uint32_t end = body.self_collision ? first : first + body.vertex_count;
         const fast::Pair* const begin = pair;
         while (pair != last_pair && pair->a == b) ++pair;
         const std::span<const fast::Pair> others(begin, pair);
@@ -128,9 +124,10 @@ void ReferenceModel::sample_boxes(const CellSizeScene& scene, std::span<const Nu
             c.count += weight;
             if (is_apart(body, t, box)) c.apart += weight;
             c.cells.add(cells_met({box.side(0), box.side(1), box.side(2)}), weight);
-            boxes.push_back({box, b, static_cast<std::uint32_t>(&c - classes_.data()), weight});
+            boxes.push_back({box, static_cast<std::uint32_t>(&c - classes_.data()), first, end, weight});
         });
     }
+    return boxes;
 }
 
 ReferenceModel::SizeClass& ReferenceModel::class_of(double side, bool may_meet) {
@@ -140,16 +137,16 @@ ReferenceModel::SizeClass& ReferenceModel::class_of(double side, bool may_meet) 
     return classes_.emplace_back(exponent, may_meet, classes_.memory());
 }
 
-void ReferenceModel::count_points(const CellSizeScene& scene, std::span<const Numbered> numbers,
-                                  const Array<TetBox>& boxes) {
+void ReferenceModel::count_points(const CellSizeScene& scene, const Array<TetBox>& boxes) {
     std::pmr::memory_resource* const memory = scene.memory;
     BoxSample sample(memory);
     const auto vertices = static_cast<std::uint64_t>(vertices_);
     sample.reserve(static_cast<std::size_t>(std::min(vertices, budget_.held)));
-    std::size_t b = 0;
+    const Body* body = scene.bodies.data();
+    std::uint64_t first = 0; // of its vertices
     for_stratified(vertices, budget_.held, 0.5, [&](std::uint64_t v) {
-        while (v >= numbers[b].end) ++b;
-        const Vec3d p = scene.bodies[b].positions[static_cast<std::size_t>(v) - numbers[b].first];
+        while (v >= first + body->vertex_count) first += body++->vertex_count;
+        const Vec3d p = body->positions[static_cast<std::size_t>(v - first)];
         sample.add({{p.x, p.y, p.z}, {p.x, p.y, p.z}}, static_cast<std::uint32_t>(v));
     });
     points_.emplace(sample, false, static_cast<double>(sample.ids.size()) / vertices_, memory);
@@ -161,14 +158,13 @@ void ReferenceModel::count_points(const CellSizeScene& scene, std::span<const Nu
     for (const Asking& ask : choose_of_kinds(kinds, budget_.chosen, 1, memory)) {
         const TetBox& own = boxes[ask.index];
         SizeClass& c = classes_[own.in_class];
-        const Numbered passed = scene.bodies[own.body].self_collision ? Numbered{0, 0} : numbers[own.body];
         const double each = ask.weight * own.weight / points_->share();
         for_fours_around(
             own.box, *points_, budget_.coarse, random,
             [&](const FourBoxes& others, const std::uint32_t(&ids)[4], const double(&numbers_of)[4]) {
                 double of_passed[4], of_tested[4], any_tested = 0;
                 for (std::size_t i = 0; i < 4; ++i) {
-                    const bool is_passed = ids[i] >= passed.first && ids[i] < passed.end;
+                    const bool is_passed = ids[i] >= own.first_passed && ids[i] < own.last_passed;
                     of_passed[i] = is_passed ? each * numbers_of[i] : 0;
                     of_tested[i] = is_passed ? 0 : each * numbers_of[i];
                     any_tested += of_tested[i];

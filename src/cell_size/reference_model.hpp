@@ -79,20 +79,17 @@ public:
     const Array<SizeClass>& classes() const noexcept { return classes_; }
 
 private:
+    // One that asks. The vertices of all bodies are numbered one body after the other.
     struct TetBox {
         PlainBox box;
-        std::uint32_t body, in_class;
-        double weight; // how many like it there are
-    };
-    // Vertices of all bodies, numbered one body after the other.
-    struct Numbered {
-        std::uint32_t first, end;
+        std::uint32_t in_class;
+        std::uint32_t first_passed, last_passed; // [first, last)
+        double weight;                           // how many like it there are
     };
 
-    void sample_boxes(const CellSizeScene& scene, std::span<const Numbered> numbers, Array<TetBox>& boxes);
+    Array<TetBox> sample_boxes(const CellSizeScene& scene);
     SizeClass& class_of(double side, bool may_meet);
-    void count_points(const CellSizeScene& scene, std::span<const Numbered> numbers,
-                      const Array<TetBox>& boxes);
+    void count_points(const CellSizeScene& scene, const Array<TetBox>& boxes);
     Work work(const SizeClass& c, double cell_size) const;
     double dense_cells(double cell_size) const noexcept;
     double buckets(double cell_size) const noexcept;

@@ -446,7 +446,7 @@ START_TEST(the_grid_follows_its_bodies) {
     ck_assert_double_gt(last / first, 2.5);
     ck_assert_double_lt(last / first, 3.5);
     ck_assert_uint_ge(changes_of(grid), 3);
-    ck_assert_uint_le(changes_of(grid), 25);
+    ck_assert_uint_le(changes_of(grid), 30); /* 3 % or more each: two steps or more */
     vox_grid_destroy(grid);
     vox_grid_destroy(fixed);
     free_pair(&p);
