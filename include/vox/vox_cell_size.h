@@ -172,7 +172,7 @@ static inline vox_cell_size_desc vox_default_cell_size_desc(void) {
 
 /* Suggests the cell size with the least cost for these meshes as they are now. Set out->struct_size first. The
  * elements of `meshes` are meshes[0].struct_size bytes apart. Their filters count only for self-collision. Large
- * meshes are sampled.
+ * meshes are sampled: with PAPER, those of more than 200,000 tetrahedra.
  * Errors: INVALID_ARGUMENT (also if no tetrahedron has a size), INVALID_MESH, NON_FINITE, LIMIT, OUT_OF_MEMORY,
  * UNSUPPORTED (SURFACE in a build without surfaces). */
 VOX_API vox_result vox_suggest_cell_size(VOX_OPTIONAL const vox_cell_size_desc* desc, const vox_mesh_desc* meshes,
@@ -211,7 +211,7 @@ typedef struct vox_geometry {
     double bounds_max[3];
 } vox_geometry;
 
-/* Measures meshes, which are given as for vox_suggest_cell_size. Above 1500 tetrahedra, means are estimated from
+/* Measures meshes, which are given as for vox_suggest_cell_size. Above 200,000 tetrahedra, means are estimated from
  * samples. Set out->struct_size first. Errors: INVALID_ARGUMENT, INVALID_MESH, NON_FINITE, OUT_OF_MEMORY. */
 VOX_API vox_result vox_measure_geometry(const vox_mesh_desc* meshes, uint64_t mesh_count, vox_geometry* out);
 

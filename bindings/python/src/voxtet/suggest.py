@@ -235,7 +235,7 @@ def suggest_cell_size(positions: Any, tets: Optional[ArrayLike] = None, *, model
 
 
 def measure_geometry(positions: Any, tets: Optional[ArrayLike] = None) -> Geometry:
-    """Sizes in a mesh, or in several, which are given as for `suggest_cell_size`. Above 1500 tetrahedra, means are estimated
+    """Sizes in a mesh, or in several, which are given as for `suggest_cell_size`. Above 200,000 tetrahedra, means are estimated
     from samples.
 
     >>> import numpy as np

@@ -1909,8 +1909,9 @@ extern "C" {
 extern "C" {
     /// Suggests the cell size with the least cost for these meshes as they are now. Set out->struct_size first. The
     /// elements of `meshes` are meshes[0].struct_size bytes apart. Their filters count only for self-collision. Large
-    /// meshes are sampled. Errors: INVALID_ARGUMENT (also if no tetrahedron has a size), INVALID_MESH, NON_FINITE,
-    /// LIMIT, OUT_OF_MEMORY, UNSUPPORTED (SURFACE in a build without surfaces).
+    /// meshes are sampled: with PAPER, those of more than 200,000 tetrahedra. Errors: INVALID_ARGUMENT (also if no
+    /// tetrahedron has a size), INVALID_MESH, NON_FINITE, LIMIT, OUT_OF_MEMORY, UNSUPPORTED (SURFACE in a build without
+    /// surfaces).
     pub fn vox_suggest_cell_size(
         desc: *const vox_cell_size_desc,
         meshes: *const vox_mesh_desc,
@@ -1928,8 +1929,8 @@ extern "C" {
     /// Measures this machine's weights with steps over a small scene, in about ten milliseconds. Set out->struct_size
     /// first. Errors: OUT_OF_MEMORY.
     pub fn vox_cost_calibrate(out: *mut vox_cost_weights) -> vox_result;
-    /// Measures meshes, which are given as for vox_suggest_cell_size. Above 1500 tetrahedra, means are estimated from
-    /// samples. Set out->struct_size first. Errors: INVALID_ARGUMENT, INVALID_MESH, NON_FINITE, OUT_OF_MEMORY.
+    /// Measures meshes, which are given as for vox_suggest_cell_size. Above 200,000 tetrahedra, means are estimated
+    /// from samples. Set out->struct_size first. Errors: INVALID_ARGUMENT, INVALID_MESH, NON_FINITE, OUT_OF_MEMORY.
     pub fn vox_measure_geometry(
         meshes: *const vox_mesh_desc,
         mesh_count: u64,
