@@ -108,15 +108,27 @@ private:
             box.lo[a] = std::max(box.lo[a] - more * side, cell.lo[a]);
             box.hi[a] = std::min(box.hi[a] + more * side, cell.hi[a]);
         }
-        items_ = items;
-        overhang_known_ = false;
+        // A tile extends beyond the centroids of its tetrahedra by about what these do on average: those at
+        // its surface are cut off where they lie, and the longest of some is further out than the mean.
+        for (int a = 0; a < 3; ++a) {
+            const auto n = static_cast<float>(items.size());
+            overhang_.lo[a] = overhang_.hi[a] = 0;
+            for (const SampledTet& item : items) {
+                overhang_.lo[a] += item.below[a] / n;
+                overhang_.hi[a] += item.above[a] / n;
+            }
+        }
         cut(box, count, in_super_tile);
     }
 
     void cut(const Box& box, std::uint32_t count, bool in_super_tile) {
         const bool is_super_tile = begins_super_tile(count, in_super_tile);
         if (count <= tile_size) {
-            emit(box, count);
+            Box& tile = out_.boxes.emplace_back(box);
+            for (int a = 0; a < 3; ++a) {
+                tile.lo[a] -= overhang_.lo[a];
+                tile.hi[a] += overhang_.hi[a];
+            }
         } else {
             const std::uint32_t middle = lower_part(count);
             const int axis = longest_axis(box);
@@ -129,61 +141,8 @@ private:
         if (is_super_tile) end_super_tile();
     }
 
-    void emit(const Box& cell, std::uint32_t count) {
-        if (!overhang_known_) find_overhang(cell, count);
-        Box box = cell;
-        for (int a = 0; a < 3; ++a) {
-            box.lo[a] -= overhang_.lo[a];
-            box.hi[a] += overhang_.hi[a];
-            if (!(box.lo[a] <= box.hi[a])) box.lo[a] = box.hi[a] = cell.lo[a] + (cell.hi[a] - cell.lo[a]) / 2;
-        }
-        out_.boxes.push_back(box);
-    }
-
-    // From one tile for all of the part, which are alike.
-    void find_overhang(const Box& cell, std::uint32_t count) {
-        overhang_ = empty_box;
-        for (int a = 0; a < 3; ++a) {
-            const float side = cell.hi[a] - cell.lo[a];
-            overhang_.lo[a] = beyond(side, count, [a](const SampledTet& item) { return item.below[a]; });
-            overhang_.hi[a] = beyond(side, count, [a](const SampledTet& item) { return item.above[a]; });
-        }
-        overhang_known_ = true;
-    }
-
-    // How far the tetrahedra of a tile extend beyond one end of the interval where their centroids are. With
-    // n of them spread over a length s, n/s E[(extent - x)+] extend beyond x on average. Were they placed
-    // independently, the largest would be beyond x half of the time where that is log 2. Those of a mesh lie
-    // more evenly, and a tree cuts between them: where it is 2 fits the tiles of meshes. Newton's method from
-    // below, where the function is convex.
-    template <class Extent>
-    float beyond(float side, std::uint32_t count, Extent&& extent) const {
-        const float wanted = 2 * side / static_cast<float>(count);
-        const auto n = static_cast<float>(items_.size());
-        float x = 0, most = 0;
-        for (const SampledTet& item : items_) {
-            x += extent(item) / n;
-            most = std::max(most, extent(item));
-        }
-        x -= wanted; // as if all extents were above
-        for (int i = 0; i < 4; ++i) {
-            float sum = 0, above = 0;
-            for (const SampledTet& item : items_) {
-                const float e = extent(item) - x;
-                sum += e > 0 ? e : 0.0f;
-                above += e > 0 ? 1.0f : 0.0f;
-            }
-            if (above == 0) break;
-            x += (sum - wanted * n) / above;
-        }
-        return std::min(x, most);
-    }
-
     TileSketch& out_;
-    // Of the part whose box is being cut.
-    std::span<const SampledTet> items_;
-    Box overhang_; // of its tiles over the boxes of their centroids, below and above
-    bool overhang_known_ = false;
+    Box overhang_ = empty_box; // of the tiles of a part beyond its centroids, below and above
 };
 
 } // namespace
