@@ -12,6 +12,9 @@ namespace vox {
 
 namespace {
 
+// Vertices further away than 64 times the smallest tile are in no cell of a size that is searched.
+constexpr std::size_t octaves_of_distance = 14;
+
 void append(const fast::Points& from, std::size_t first, std::uint32_t count, fast::Points& to) {
     to.reserve(std::size_t{to.count} + count);
     const auto copy = [&](const auto& a, auto& b) {
@@ -162,8 +165,9 @@ void FastModel::count_points(const fast::Points& points, const Array<Window>& wi
                              const Array<Look>& looks) {
     std::pmr::memory_resource* const memory = pools_.memory();
     for (Pool& pool : pools_)
-        pool.read.emplace(
-            nearest_distance * (pool.smallest_look > 0 ? pool.smallest_look : pool.smallest_cell), memory);
+        pool.read.emplace(nearest_distance *
+                              (pool.smallest_look > 0 ? pool.smallest_look : pool.smallest_cell),
+                          octaves_of_distance, memory);
     Array<std::uint32_t> kinds(memory);
     kinds.reserve(looks.size());
     for (const Look& look : looks) {

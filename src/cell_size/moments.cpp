@@ -2,8 +2,6 @@
 
 namespace vox {
 
-void PiecewiseMoments::grow(std::size_t to) { sums_.resize(to + 1); }
-
 void PiecewiseMoments::finish() noexcept {
     for (std::size_t c = 1; c < sums_.size(); ++c) sums_[c].add(sums_[c - 1]);
 }

@@ -48,22 +48,21 @@ inline constexpr double nearest_distance = 1.0 / 256;
 // A sum of polynomials in 1/d, each from a cell size on.
 class PiecewiseMoments {
 public:
-    // Sizes above `least` differ, up to 2^34 times that. Smaller ones count as `least`, larger ones as never.
-    PiecewiseMoments(double least, std::pmr::memory_resource* memory)
-        : inverse_least_(1 / least), sums_(1, memory) {}
+    // Sizes from `least` up to so many octaves above it differ. Smaller ones count as `least`, larger ones as
+    // never.
+    PiecewiseMoments(double least, std::size_t octaves, std::pmr::memory_resource* memory)
+        : inverse_least_(1 / least), sums_((octaves << step_bits) + 1, memory) {}
 
     // Adds (c[0] - s[0]/d) (c[1] - s[1]/d) (c[2] - s[2]/d) for d >= from, `weight` times.
-    void add(double from, const double (&c)[3], const double (&s)[3], double weight) {
+    void add(double from, const double (&c)[3], const double (&s)[3], double weight) noexcept {
         const double one = c[0] * s[1] + s[0] * c[1], two = s[0] * s[1], none = c[0] * c[1];
         add(from, {{weight * none * c[2], -weight * (one * c[2] + none * s[2]),
                     weight * (two * c[2] + one * s[2]), -weight * two * s[2]}});
     }
-    void add(double from, const Moments& polynomial) {
+    void add(double from, const Moments& polynomial) noexcept {
         ++added_;
         const std::size_t index = class_of(from * inverse_least_);
-        if (index >= classes) return;
-        if (index >= sums_.size()) grow(index);
-        sums_[index].add(polynomial);
+        if (index < sums_.size()) sums_[index].add(polynomial);
     }
     std::uint64_t added() const noexcept { return added_; } // how often add() was called
     // Call once, after the last add(): turns each class into the sum of all up to it.
@@ -74,7 +73,6 @@ public:
 
 private:
     static constexpr int step_bits = 4; // sixteen classes an octave
-    static constexpr std::size_t classes = (std::size_t{34} << step_bits) + 1;
 
     // The class of a size, given as a multiple of the least: 0 below 1, from there on each octave has classes
     // of equal width.
@@ -83,11 +81,10 @@ private:
         const std::uint64_t octave_and_part = std::bit_cast<std::uint64_t>(ratio) >> (52 - step_bits);
         return static_cast<std::size_t>(octave_and_part - (std::uint64_t{1023} << step_bits) + 1);
     }
-    void grow(std::size_t to);
 
     double inverse_least_;
     std::uint64_t added_ = 0;
-    Array<Moments> sums_; // of the classes up to the last one in use
+    Array<Moments> sums_; // of each class
 };
 
 } // namespace vox

@@ -263,24 +263,6 @@ Array<Asking> choose_asking(const SampleTree& tree, std::size_t wanted, std::pmr
 
 // ---- pairs ----------------------------------------------------------------------------------------
 
-void add_common_cells(const PlainBox& box, const FourBoxes& others, const double (&weights)[4],
-                      PiecewiseMoments& sums) {
-    double gap[3][4], most[4], moments[4][4];
-    for (int k = 0; k < 3; ++k)
-        for (std::size_t i = 0; i < 4; ++i)
-            gap[k][i] = std::max(box.lo[k], others.lo[k][i]) - std::min(box.hi[k], others.hi[k][i]);
-    for (std::size_t i = 0; i < 4; ++i) {
-        const double x = gap[0][i], y = gap[1][i], z = gap[2][i], w = weights[i];
-        most[i] = std::max(std::max(x, y), z);
-        moments[0][i] = w; // (1 - x/d) (1 - y/d) (1 - z/d)
-        moments[1][i] = -w * (x + y + z);
-        moments[2][i] = w * (x * y + (x + y) * z);
-        moments[3][i] = -w * (x * y * z);
-    }
-    for (std::size_t i = 0; i < 4; ++i)
-        if (weights[i] > 0) sums.add(most[i], {{moments[0][i], moments[1][i], moments[2][i], moments[3][i]}});
-}
-
 namespace {
 
 void add_neighbours(const PlainBox& a, const PlainBox& b, double weight, PiecewiseMoments& sums) {
@@ -314,22 +296,22 @@ PiecewiseMoments sum_pairs(const SampleTree& from, const Array<Asking>& asking, 
     PlainBox bounds = from.bounds();
     bounds.include(held.bounds());
     const double longest = bounds.longest_side();
-    PiecewiseMoments sums((longest > 0 ? longest : 1) * 0x1p-32, memory);
+    PiecewiseMoments sums((longest > 0 ? longest : 1) * 0x1p-32, 34, memory);
     std::uint64_t random = 2;
     for (const Asking& ask : asking) {
         const PlainBox box = from.box(ask.index);
         const std::uint32_t id = from.id(ask.index);
         const double each = ask.weight / held.share();
-        for_fours_around(
-            box, held, coarse, random,
-            [&](const FourBoxes& others, const std::uint32_t(&ids)[4], const double(&numbers)[4]) {
-                double weights[4];
-                for (std::size_t i = 0; i < 4; ++i)
-                    weights[i] = same_set && ids[i] == id ? 0 : each * numbers[i];
-                if (meeting == Meeting::in_cells) return add_common_cells(box, others, weights, sums);
-                for (std::size_t i = 0; i < 4; ++i)
-                    if (weights[i] > 0) add_neighbours(box, others.get(i), weights[i], sums);
-            });
+        for_fours_around(box, held, coarse, random,
+                         [&](const FourBoxes& others, const std::uint32_t* ids, const double* numbers) {
+                             double weights[4];
+                             for (std::size_t i = 0; i < 4; ++i)
+                                 weights[i] = same_set && ids[i] == id ? 0 : each * numbers[i];
+                             if (meeting == Meeting::in_cells)
+                                 return add_common_cells(box, others, weights, sums);
+                             for (std::size_t i = 0; i < 4; ++i)
+                                 if (weights[i] > 0) add_neighbours(box, others.get(i), weights[i], sums);
+                         });
     }
     sums.finish();
     return sums;

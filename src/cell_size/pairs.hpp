@@ -185,8 +185,8 @@ private:
     double share_;
 };
 
-// Calls add(four boxes, their ids, how many boxes each of them stands for) for boxes around one, as
-// SampleTree::sample_around.
+// Calls add(four boxes, their ids, how many boxes each of them stands for) for boxes around one,
+// as SampleTree::sample_around.
 template <class Add>
 void for_fours_around(const PlainBox& box, const SampleTree& held, double coarse, std::uint64_t& random,
                       Add&& add) {
@@ -194,14 +194,16 @@ void for_fours_around(const PlainBox& box, const SampleTree& held, double coarse
     std::uint32_t ids[4];
     double numbers[4];
     std::size_t gathered = 0;
+    constexpr double once[4] = {1, 1, 1, 1};
     held.sample_around(
         box, coarse, random,
         [&](std::size_t first, std::size_t count) {
-            std::uint32_t own_ids[4] = {};
-            double ones[4] = {};
-            std::copy_n(held.ids() + first, count, own_ids);
-            std::fill_n(ones, count, 1.0);
-            add(held.four(first), own_ids, ones);
+            if (count == 4) return add(held.four(first), held.ids() + first, once);
+            std::uint32_t last_ids[4] = {};
+            double last_numbers[4] = {};
+            std::copy_n(held.ids() + first, count, last_ids);
+            std::copy_n(once, count, last_numbers);
+            add(held.four(first), last_ids, last_numbers);
         },
         [&](std::size_t i, double number) {
             some.set(gathered, held.box(i));
@@ -217,8 +219,23 @@ void for_fours_around(const PlainBox& box, const SampleTree& held, double coarse
 }
 
 // Adds the cells that a box has in common with each of four others, which count `weights` times.
-void add_common_cells(const PlainBox& box, const FourBoxes& others, const double (&weights)[4],
-                      PiecewiseMoments& sums);
+inline void add_common_cells(const PlainBox& box, const FourBoxes& others, const double (&weights)[4],
+                             PiecewiseMoments& sums) {
+    double gap[3][4], most[4], moments[4][4];
+    for (int k = 0; k < 3; ++k)
+        for (std::size_t i = 0; i < 4; ++i)
+            gap[k][i] = std::max(box.lo[k], others.lo[k][i]) - std::min(box.hi[k], others.hi[k][i]);
+    for (std::size_t i = 0; i < 4; ++i) {
+        const double x = gap[0][i], y = gap[1][i], z = gap[2][i], w = weights[i];
+        most[i] = std::max(std::max(x, y), z);
+        moments[0][i] = w; // (1 - x/d) (1 - y/d) (1 - z/d)
+        moments[1][i] = -w * (x + y + z);
+        moments[2][i] = w * (x * y + (x + y) * z);
+        moments[3][i] = -w * (x * y * z);
+    }
+    for (std::size_t i = 0; i < 4; ++i)
+        if (weights[i] > 0) sums.add(most[i], {{moments[0][i], moments[1][i], moments[2][i], moments[3][i]}});
+}
 
 // ---- who asks -------------------------------------------------------------------------------------
 

@@ -15,6 +15,8 @@ namespace {
 
 // At least this many tetrahedra of each body are sampled, so that a small body among large ones is seen.
 constexpr std::size_t least_of_body = 64;
+// Vertices further away than 2^octaves times the nearest distance are in no cell of a size that matters.
+constexpr std::size_t octaves = 18;
 // A box that meets fewer cells than this is never better off with a scan of all that are occupied.
 constexpr double few_cells = 512;
 // With more sampled vertices than this in a cell, the number of all in it is known well enough.
@@ -63,8 +65,8 @@ bool is_near(const PlainBox& box, std::span<const fast::Pair> others, const Arra
 } // namespace
 
 ReferenceModel::SizeClass::SizeClass(int e, bool may_meet_points, std::pmr::memory_resource* memory)
-    : exponent(e), may_meet(may_meet_points), passed(std::ldexp(nearest_distance, e), memory),
-      tested(std::ldexp(nearest_distance, e), memory) {}
+    : exponent(e), may_meet(may_meet_points), passed(std::ldexp(nearest_distance, e), octaves, memory),
+      tested(std::ldexp(nearest_distance, e), octaves, memory) {}
 
 ReferenceModel::ReferenceModel(const CellSizeScene& scene, bool dense, const CostWeights& weights)
     : weights_(weights), dense_(dense), budget_(scene.budget), classes_(scene.memory),
@@ -159,19 +161,19 @@ void ReferenceModel::count_points(const CellSizeScene& scene, const Array<TetBox
         const TetBox& own = boxes[ask.index];
         SizeClass& c = classes_[own.in_class];
         const double each = ask.weight * own.weight / points_->share();
-        for_fours_around(
-            own.box, *points_, budget_.coarse, random,
-            [&](const FourBoxes& others, const std::uint32_t(&ids)[4], const double(&numbers_of)[4]) {
-                double of_passed[4], of_tested[4], any_tested = 0;
-                for (std::size_t i = 0; i < 4; ++i) {
-                    const bool is_passed = ids[i] >= own.first_passed && ids[i] < own.last_passed;
-                    of_passed[i] = is_passed ? each * numbers_of[i] : 0;
-                    of_tested[i] = is_passed ? 0 : each * numbers_of[i];
-                    any_tested += of_tested[i];
-                }
-                add_common_cells(own.box, others, of_passed, c.passed);
-                if (any_tested > 0) add_common_cells(own.box, others, of_tested, c.tested);
-            });
+        for_fours_around(own.box, *points_, budget_.coarse, random,
+                         [&](const FourBoxes& others, const std::uint32_t* ids, const double* numbers_of) {
+                             double of_passed[4], of_tested[4], any_tested = 0;
+                             for (std::size_t i = 0; i < 4; ++i) {
+                                 const bool is_passed =
+                                     ids[i] >= own.first_passed && ids[i] < own.last_passed;
+                                 of_passed[i] = is_passed ? each * numbers_of[i] : 0;
+                                 of_tested[i] = is_passed ? 0 : each * numbers_of[i];
+                                 any_tested += of_tested[i];
+                             }
+                             add_common_cells(own.box, others, of_passed, c.passed);
+                             if (any_tested > 0) add_common_cells(own.box, others, of_tested, c.tested);
+                         });
     }
     for (SizeClass& c : classes_) {
         c.passed.finish();
