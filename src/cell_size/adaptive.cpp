@@ -29,7 +29,7 @@ constexpr double far_off = 1.5;
 constexpr double time_share = 0.003;
 // Nanoseconds of a choice: for each vertex, for each tetrahedron and vertex of the samples, and for each box
 // that is looked at with what is around it.
-constexpr double vertex_ns = 4, tet_ns = 50, held_ns = 100, chosen_ns = 3000;
+constexpr double vertex_ns = 3, tet_ns = 30, held_ns = 60, chosen_ns = 1800;
 
 double choice_ns(double vertices, double tets, const SampleBudget& budget) {
     return vertices * vertex_ns + std::min(tets, static_cast<double>(budget.summed)) * tet_ns +
