@@ -11,7 +11,6 @@
 #include "exact/crossing.hpp"
 #include "exact/facet_normal.hpp"
 #include "exact/predicates.hpp"
-#include "fast/engine.hpp"
 #include "mesh/filter.hpp"
 
 #include <algorithm>
@@ -40,16 +39,16 @@ Box box_at(const float* positions, std::uint32_t vertex) {
 }
 
 // Where a body certainly has no edge contact with itself; null for a pair of two, and where nothing is known.
-const fast::CertifiedCells* certified_for(const EdgeScene& scene, const fast::Pair& pair) {
-    return pair.a == pair.b && scene.engine ? scene.engine->certified(pair.a) : nullptr;
+const fast::CertifiedCells* certified_for(const StepScene& scene, const fast::Pair& pair) {
+    return pair.a == pair.b ? scene.certified(pair.a) : nullptr;
 }
 
 } // namespace
 
 EdgeContacts::EdgeContacts(std::pmr::memory_resource* memory)
-    : surfaces_(memory), pair_buffers_(memory), body_boxes_(memory), packed_(memory), first_packed_(memory),
-      pairs_of_bodies_(memory), step_surfaces_(memory), pieces_(memory), tile_boxes_(memory),
-      workers_(memory), found_(memory), keys_(memory), contacts_(memory), pairs_(memory), depths_(memory) {}
+    : surfaces_(memory), pairs_of_bodies_(memory), step_surfaces_(memory), pieces_(memory),
+      tile_boxes_(memory), workers_(memory), found_(memory), keys_(memory), contacts_(memory), pairs_(memory),
+      depths_(memory) {}
 
 void EdgeContacts::clear() noexcept {
     contacts_.clear();
@@ -61,7 +60,7 @@ void EdgeContacts::forget(vox_body mesh) noexcept {
     erase_if(surfaces_, [mesh](const Surface& surface) { return surface.mesh == mesh; });
 }
 
-void EdgeContacts::find(const EdgeScene& scene, Counters& counters) {
+void EdgeContacts::find(const StepScene& scene, Counters& counters) {
     workers_.grow(scene.workers->count());
     for (Worker& worker : workers_) {
         worker.candidates = worker.exact_tests = 0;
@@ -69,7 +68,10 @@ void EdgeContacts::find(const EdgeScene& scene, Counters& counters) {
         for (LoadedTile& tile : worker.loaded) tile.body = ~0u; // that of another step
     }
     found_.clear();
-    carry(scene);
+    scene.carry(std::span<const EdgeContact>(contacts_), [&](const EdgeContact& contact) {
+        reserve_sparingly(found_, found_.size() + 1);
+        found_.push_back(contact);
+    });
     const std::size_t carried = found_.size();
     list_pairs(scene);
     prepare_surfaces(scene);
@@ -92,85 +94,26 @@ void EdgeContacts::find(const EdgeScene& scene, Counters& counters) {
 
 // ---- which bodies ---------------------------------------------------------------------------------
 
-// Those of the last step between bodies that have not moved since.
-void EdgeContacts::carry(const EdgeScene& scene) {
-    if (!scene.engine) return;
-    const auto rests = [&](vox_body mesh) {
-        const auto body = std::lower_bound(scene.bodies.begin(), scene.bodies.end(), mesh,
-                                           [](const Body& b, vox_body id) { return b.mesh_id < id; });
-        return body != scene.bodies.end() && body->mesh_id == mesh &&
-               !scene.engine->moved(static_cast<std::size_t>(body - scene.bodies.begin()));
-    };
-    IdPair last{};
-    bool last_rests = false;
-    for (const EdgeContact& contact : contacts_) {
-        const IdPair pair{contact.body_a, contact.body_b};
-        if (pair != last) last_rests = rests(pair.body_a) && rests(pair.body_b);
-        last = pair;
-        if (!last_rests) continue;
-        reserve_sparingly(found_, found_.size() + 1);
-        found_.push_back(contact);
-    }
-}
-
 // Pairs of bodies with surfaces whose boxes overlap, that the filters let collide, and of which one moved.
-void EdgeContacts::list_pairs(const EdgeScene& scene) {
+void EdgeContacts::list_pairs(const StepScene& scene) {
     const auto has_surface = [&](std::uint32_t body) { return !scene.topologies[body]->triangles.empty(); };
-    const auto bodies = static_cast<std::uint32_t>(scene.bodies.size());
     pairs_of_bodies_.clear();
-    if (scene.engine) {
-        for (const fast::Pair& pair : scene.engine->broad_phase().pairs)
-            if (pair.a < pair.b && has_surface(pair.a) && has_surface(pair.b))
-                pairs_of_bodies_.push_back(pair);
-    } else {
-        pack_positions(scene);
-        fast::find_pairs(body_boxes_, {scene.bodies, {}}, pair_buffers_, pairs_of_bodies_);
-        erase_if(pairs_of_bodies_, [](const fast::Pair& pair) { return pair.a > pair.b; });
-    }
-    for (std::uint32_t b = 0; b < bodies; ++b)
-        if (scene.bodies[b].self_collision && has_surface(b) && (!scene.engine || scene.engine->moved(b))) {
-            const fast::CertifiedCells* const certified = certified_for(scene, {b, b});
-            if (!certified || !certified->complete) pairs_of_bodies_.push_back({b, b});
-        }
-}
-
-// Positions of bodies with surfaces as floats, one after the other, and the boxes around the surfaces.
-void EdgeContacts::pack_positions(const EdgeScene& scene) {
-    first_packed_.assign(scene.bodies.size(), 0);
-    body_boxes_.assign(scene.bodies.size(), empty_box);
-    std::size_t room = 0;
-    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-        if (!scene.topologies[b]->triangles.empty()) {
-            first_packed_[b] = room;
-            room += 3 * std::size_t{scene.bodies[b].vertex_count};
-        }
-    packed_.resize(room);
-    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-        if (scene.topologies[b]->triangles.empty()) continue;
-        float* to = packed_.data() + first_packed_[b];
-        for (std::uint32_t v = 0; v < scene.bodies[b].vertex_count; ++v) {
-            const Vec3f p = scene.bodies[b].positions[v];
-            to[3 * std::size_t{v}] = p.x;
-            to[3 * std::size_t{v} + 1] = p.y;
-            to[3 * std::size_t{v} + 2] = p.z;
-        }
-        for (const Triangle& triangle : scene.topologies[b]->triangles)
-            for (const std::uint32_t vertex : triangle.v) add(body_boxes_[b], box_at(to, vertex));
+    for (const fast::Pair& pair : scene.pairs)
+        if (pair.a < pair.b && has_surface(pair.a) && has_surface(pair.b)) pairs_of_bodies_.push_back(pair);
+    for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
+        if (!scene.bodies[b].self_collision || !has_surface(b) || !scene.of[b].moved) continue;
+        const fast::CertifiedCells* const certified = scene.certified(b);
+        if (!certified || !certified->complete) pairs_of_bodies_.push_back({b, b});
     }
 }
 
-const Box& EdgeContacts::box_of(const EdgeScene& scene, std::uint32_t body) const {
-    return scene.engine ? scene.engine->boxes().bodies[body] : body_boxes_[body];
-}
-
-const SurfaceFeatures& EdgeContacts::surface_of(const EdgeScene& scene, std::uint32_t body) {
+const SurfaceFeatures& EdgeContacts::surface_of(const StepScene& scene, std::uint32_t body) {
     const vox_body mesh = scene.bodies[body].mesh_id;
     auto place = std::lower_bound(surfaces_.begin(), surfaces_.end(), mesh,
                                   [](const Surface& surface, vox_body id) { return surface.mesh < id; });
     if (place == surfaces_.end() || place->mesh != mesh || place->version != scene.versions[body]) {
         Surface made(mesh, scene.versions[body], memory());
-        make_surface_features(*scene.topologies[body], scene.bodies[body].positions,
-                              scene.engine ? scene.engine->last_step().of[body].tiles : nullptr,
+        make_surface_features(*scene.topologies[body], scene.bodies[body].positions, *scene.of[body].tiles,
                               made.features);
         if (place == surfaces_.end() || place->mesh != mesh)
             place = surfaces_.insert(place, std::move(made));
@@ -181,11 +124,11 @@ const SurfaceFeatures& EdgeContacts::surface_of(const EdgeScene& scene, std::uin
 }
 
 // What is known of bodies in pairs, room for the boxes of their tiles, and the pieces of work to make them.
-void EdgeContacts::prepare_surfaces(const EdgeScene& scene) {
+void EdgeContacts::prepare_surfaces(const StepScene& scene) {
     step_surfaces_.assign(scene.bodies.size(), {nullptr, 0, {}, nullptr, empty_box, empty_box});
     for (const fast::Pair& pair : pairs_of_bodies_) {
-        Box common = box_of(scene, pair.a);
-        intersect(common, box_of(scene, pair.b));
+        Box common = scene.boxes->bodies[pair.a];
+        intersect(common, scene.boxes->bodies[pair.b]);
         for (const std::uint32_t body : {pair.a, pair.b}) {
             (void)surface_of(scene, body); // which may move those of others
             add(step_surfaces_[body].reached, common);
@@ -203,19 +146,15 @@ void EdgeContacts::prepare_surfaces(const EdgeScene& scene) {
             for (std::uint32_t first = 0; first < count; first += small_body)
                 pieces_.push_back({body, first, std::min<std::uint32_t>(first + small_body, count)});
             tiles += count;
-            if (scene.engine) {
-                const fast::StepBody& of = scene.engine->last_step().of[body];
-                surface.positions = of.positions;
-                surface.blocks = {scene.engine->boxes().blocks.data() + of.first_block,
-                                  scene.engine->boxes().groups.data() + of.first_group};
-            } else {
-                surface.positions = packed_.data() + first_packed_[body];
-            }
+            const fast::StepBody& of = scene.of[body];
+            surface.positions = of.positions;
+            surface.blocks = {scene.boxes->blocks.data() + of.first_block,
+                              scene.boxes->groups.data() + of.first_group};
         }
     if (tile_boxes_.size() < tiles) tile_boxes_.resize(tiles);
 }
 
-void EdgeContacts::make_tile_boxes(const EdgeScene& scene) {
+void EdgeContacts::make_tile_boxes(const StepScene& scene) {
     scene.workers->for_ranges(
         pieces_.size(), task_tiles / small_body, [&](std::size_t begin, std::size_t end, std::uint32_t) {
             for (std::size_t i = begin; i < end; ++i) {
@@ -243,7 +182,7 @@ void EdgeContacts::make_tile_boxes(const EdgeScene& scene) {
 // ---- which edges and faces ------------------------------------------------------------------------
 
 // Workers share pairs of small bodies, and then the tiles of each pair of large ones.
-void EdgeContacts::search_pairs(const EdgeScene& scene) {
+void EdgeContacts::search_pairs(const StepScene& scene) {
     const auto is_large = [&](const fast::Pair& pair) {
         return step_surfaces_[pair.a].features->tiles.size() >= small_body;
     };
@@ -267,7 +206,7 @@ void EdgeContacts::search_pairs(const EdgeScene& scene) {
 
 // The tiles of the two that meet where the boxes of the two overlap. Of a body with itself, those that are
 // not certified.
-bool EdgeContacts::list_tiles(const EdgeScene& scene, const fast::Pair& pair, Worker& worker) const {
+bool EdgeContacts::list_tiles(const StepScene& scene, const fast::Pair& pair, Worker& worker) const {
     const StepSurface &a = step_surfaces_[pair.a], &b = step_surfaces_[pair.b];
     Box region = a.box;
     intersect(region, b.box);
@@ -300,7 +239,7 @@ bool EdgeContacts::list_tiles(const EdgeScene& scene, const fast::Pair& pair, Wo
 
 // The tiles [begin, end) of tiles.tiles_a against all of tiles.tiles_b, edges of either with faces of the
 // other. Of a body with itself, each two tiles once.
-void EdgeContacts::search(const EdgeScene& scene, const fast::Pair& pair, const Worker& tiles,
+void EdgeContacts::search(const StepScene& scene, const fast::Pair& pair, const Worker& tiles,
                           std::size_t begin, std::size_t end, Worker& worker) {
     const fast::CertifiedCells* const certified = certified_for(scene, pair);
     LoadedTile& a = worker.loaded[Worker::most_loaded];
@@ -364,7 +303,7 @@ void EdgeContacts::load(std::uint32_t body, std::uint32_t index, LoadedTile& out
     }
 }
 
-void EdgeContacts::make_points(const EdgeScene& scene, LoadedTile& tile) const {
+void EdgeContacts::make_points(const StepScene& scene, LoadedTile& tile) const {
     if (tile.has_points) return;
     const Positions& positions = scene.bodies[tile.body].positions;
     const std::uint32_t* vertices =
@@ -382,7 +321,7 @@ const TrianglePlane& EdgeContacts::plane_of(LoadedTile& tile, std::size_t face) 
     return tile.planes[face];
 }
 
-void EdgeContacts::test(const EdgeScene& scene, LoadedTile& edges, LoadedTile& faces, Worker& worker) {
+void EdgeContacts::test(const StepScene& scene, LoadedTile& edges, LoadedTile& faces, Worker& worker) {
     std::array<EdgeFaces, SurfaceTile::most_edges> near;
     const std::uint32_t count = find_edge_faces(edges.edges, edges.tile->edge_count, edges.box, faces.faces,
                                                 faces.tile->face_count, near.data());
@@ -419,7 +358,7 @@ void EdgeContacts::test(const EdgeScene& scene, LoadedTile& edges, LoadedTile& f
 
 // ---- contacts -------------------------------------------------------------------------------------
 
-void EdgeContacts::decide(const EdgeScene& scene, const LoadedTile& edges, std::size_t edge,
+void EdgeContacts::decide(const StepScene& scene, const LoadedTile& edges, std::size_t edge,
                           const LoadedTile& faces, std::size_t face, Worker& worker) {
     const SurfaceFeatures& of_edge = *step_surfaces_[edges.body].features;
     const SurfaceFeatures& of_face = *step_surfaces_[faces.body].features;

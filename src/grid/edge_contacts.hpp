@@ -11,7 +11,7 @@
 #include "depth/penetrations.hpp"
 #include "exact/crossing.hpp"
 #include "exact/predicates.hpp"
-#include "fast/body_pairs.hpp"
+#include "fast/step_scene.hpp"
 #include "grid/box_lanes.hpp"
 #include "grid/contact_pairs.hpp"
 #include "grid/surface_features.hpp"
@@ -29,24 +29,7 @@
 
 namespace vox {
 
-class FastEngine;
 class Workers;
-
-// Of what the features of a surface are made from; each grows with every change (Mesh).
-struct SurfaceVersion {
-    std::uint32_t topology, tiles;
-
-    bool operator==(const SurfaceVersion&) const = default;
-};
-
-// A step as it is when the hits are found.
-struct EdgeScene {
-    std::span<const Body> bodies;
-    std::span<const Topology* const> topologies; // of each
-    std::span<const SurfaceVersion> versions;    // of each
-    const FastEngine* engine;                    // null for the reference engine: nothing is carried over
-    Workers* workers;
-};
 
 // A mesh of edge contacts, as it is when their depths are asked for.
 struct EdgeBody {
@@ -78,7 +61,7 @@ public:
 
     // Replaces the contacts. Those between bodies at rest are carried over; the surfaces of bodies that are
     // near others are prepared. Sets the counters of edge contacts. If it throws, clear() is to be called.
-    void find(const EdgeScene& scene, Counters& counters);
+    void find(const StepScene& scene, Counters& counters);
 
     std::span<const EdgeContact> all() const noexcept { return contacts_; }
     // Whether the last step found what the one before had, all of it carried over.
@@ -110,10 +93,10 @@ private:
     struct StepSurface {
         const SurfaceFeatures* features; // null for a body that no pair has
         std::uint32_t first_tile;        // in tile_boxes_
-        BlockBoxes blocks;               // with the fast engine
-        const float* positions;          // packed, rounded to floats
-        Box reached;                     // around where the boxes of others overlap that of the body
-        Box box;                         // around those of its tiles that are there
+        BlockBoxes blocks;
+        const float* positions; // packed, rounded to floats
+        Box reached;            // around where the boxes of others overlap that of the body
+        Box box;                // around those of its tiles that are there
     };
     struct TilePiece {
         std::uint32_t body, first, last;
@@ -156,22 +139,19 @@ private:
         auto operator<=>(const Key&) const = default;
     };
 
-    void carry(const EdgeScene& scene);
-    void list_pairs(const EdgeScene& scene);
-    void pack_positions(const EdgeScene& scene);
-    const Box& box_of(const EdgeScene& scene, std::uint32_t body) const;
-    void prepare_surfaces(const EdgeScene& scene);
-    const SurfaceFeatures& surface_of(const EdgeScene& scene, std::uint32_t body);
-    void make_tile_boxes(const EdgeScene& scene);
-    void search_pairs(const EdgeScene& scene);
-    bool list_tiles(const EdgeScene& scene, const fast::Pair& pair, Worker& worker) const;
-    void search(const EdgeScene& scene, const fast::Pair& pair, const Worker& tiles, std::size_t begin,
+    void list_pairs(const StepScene& scene);
+    void prepare_surfaces(const StepScene& scene);
+    const SurfaceFeatures& surface_of(const StepScene& scene, std::uint32_t body);
+    void make_tile_boxes(const StepScene& scene);
+    void search_pairs(const StepScene& scene);
+    bool list_tiles(const StepScene& scene, const fast::Pair& pair, Worker& worker) const;
+    void search(const StepScene& scene, const fast::Pair& pair, const Worker& tiles, std::size_t begin,
                 std::size_t end, Worker& worker);
     void load(std::uint32_t body, std::uint32_t tile, LoadedTile& out) const;
-    void make_points(const EdgeScene& scene, LoadedTile& tile) const;
+    void make_points(const StepScene& scene, LoadedTile& tile) const;
     const TrianglePlane& plane_of(LoadedTile& tile, std::size_t face) const;
-    void test(const EdgeScene& scene, LoadedTile& edges, LoadedTile& faces, Worker& worker);
-    void decide(const EdgeScene& scene, const LoadedTile& edges, std::size_t edge, const LoadedTile& faces,
+    void test(const StepScene& scene, LoadedTile& edges, LoadedTile& faces, Worker& worker);
+    void decide(const StepScene& scene, const LoadedTile& edges, std::size_t edge, const LoadedTile& faces,
                 std::size_t face, Worker& worker);
     void put_in_order();
 
@@ -180,12 +160,6 @@ private:
     Array<Surface> surfaces_; // by mesh
 
     // One step.
-    // With the reference engine; the fast one has them.
-    fast::PairBuffers pair_buffers_;
-    Array<Box> body_boxes_;
-    Array<float> packed_;
-    Array<std::size_t> first_packed_; // of each body
-    // With both.
     Array<fast::Pair> pairs_of_bodies_; // a <= b
     Array<StepSurface> step_surfaces_;  // of each body
     Array<TilePiece> pieces_;

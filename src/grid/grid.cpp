@@ -89,10 +89,10 @@ vox_grid::vox_grid(const vox_grid_desc& desc, const MemoryShare& memory)
       meshes_(&memory_), bodies_(&memory_), prepared_(&memory_), lone_(&memory_), fast_engine_(&memory_),
       reference_(&memory_), topologies_(&memory_), trees_(&memory_),
       finds_constraints_((desc.flags & VOX_GRID_CONSTRAINTS) != 0), hits_(&memory_),
-      surface_versions_(&memory_), contacts_(&memory_), interiors_(&memory_), left_out_(&memory_),
-      penetrations_(&memory_), pairs_(&memory_), touching_pairs_(&memory_), constraints_(&memory_),
-      chosen_pairs_(&memory_), chosen_bodies_(&memory_), chosen_hits_(&memory_), edge_bodies_(&memory_),
-      entered_bodies_(&memory_), locators_(share_), query_bodies_(&memory_) {
+      surface_versions_(&memory_), streamed_(&memory_), contacts_(&memory_), interiors_(&memory_),
+      left_out_(&memory_), penetrations_(&memory_), pairs_(&memory_), touching_pairs_(&memory_),
+      constraints_(&memory_), chosen_pairs_(&memory_), chosen_bodies_(&memory_), chosen_hits_(&memory_),
+      edge_bodies_(&memory_), entered_bodies_(&memory_), locators_(share_), query_bodies_(&memory_) {
     if (finds_constraints_) depth_.emplace(&memory_, trees_);
     if (desc.flags & VOX_GRID_EDGES) edges_.emplace(&memory_);
     set_margin(desc.margin);
@@ -107,9 +107,9 @@ vox_grid::vox_grid(const vox_grid_desc& desc, const MemoryShare& memory)
 void vox_grid::prepare(Mesh& mesh, fast::MeshState& state) {
     if (mesh.may_share()) mesh.share(shared_tets_);
     if (needs_topology(mesh.filter())) mesh.make_topology();
-    if (!fast_ || !mesh.has_positions()) return;
+    if (!mesh.has_positions() || !(fast_ || finds_surfaces())) return;
     mesh.make_tiles();
-    state.update(mesh.tiled(), mesh.tiles_version(), mesh.vertex_count());
+    if (fast_) state.update(mesh.tiled(), mesh.tiles_version(), mesh.vertex_count());
 }
 
 vox_body vox_grid::insert(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter) {

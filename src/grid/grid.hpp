@@ -11,6 +11,7 @@
 #include "cell_size/scene.hpp"
 #include "depth/stage.hpp"
 #include "fast/engine.hpp"
+#include "fast/step_scene.hpp"
 #include "grid/constraints.hpp"
 #include "grid/edge_contacts.hpp"
 #include "grid/lone_bodies.hpp"
@@ -127,8 +128,9 @@ private:
     void drop_surfaces() noexcept;
     void look_near() noexcept;
     void list_counters() noexcept;
-    void find_near(vox::Counters& counters);
-    bool find_edges(vox::Counters& counters);
+    void find_near(const vox::StepScene& scene, vox::Counters& counters);
+    bool find_edges(const vox::StepScene& scene, vox::Counters& counters);
+    vox::StepScene surface_scene();
     std::span<const vox::IdPair> touching_pairs();
     void scene_changed() noexcept;
     bool chooses_cell_size() const noexcept { return requested_cell_size_ == 0; }
@@ -169,7 +171,7 @@ private:
 
     // one step
     vox::Array<vox::Body> bodies_;
-    vox::Array<vox::fast::PreparedBody> prepared_; // of each body, for the fast engine
+    vox::Array<vox::fast::PreparedBody> prepared_; // of each body that has tiles
     vox::LoneBodies lone_;                         // which are not among the bodies
     vox::FastEngine fast_engine_;
     vox::ReferenceEngine reference_;
@@ -178,7 +180,8 @@ private:
     bool finds_constraints_;                      // every step does
     std::optional<vox::DepthStage> depth_;        // once depths were looked for
     vox::Array<vox::Hit> hits_;
-    vox::Array<vox::SurfaceVersion> surface_versions_; // of each body, while it finds edge contacts
+    vox::Array<vox::SurfaceVersion> surface_versions_; // of each body, while it finds some of the following
+    vox::StreamedScene streamed_;                      // what these read of the reference engine's steps
     std::optional<vox::EdgeContacts> edges_;           // while it finds them; has the results as well
     double margin_ = 0;
     std::optional<vox::VertexFaceSearch> near_faces_;    // while one of these is there

@@ -10,7 +10,6 @@
 #include "exact/closest_point.hpp"
 #include "exact/facet_normal.hpp"
 #include "exact/predicates.hpp"
-#include "fast/engine.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -50,7 +49,7 @@ Vec3d normal_to(const Vec3d& p, const Vec3d (&corner)[3], const SeenPoint& seen,
 
 } // namespace
 
-void MarginContacts::find(const EdgeScene& scene, double margin, std::span<const vox_contact> contacts,
+void MarginContacts::find(const StepScene& scene, double margin, std::span<const vox_contact> contacts,
                           VertexFaceSearch& search, Counters& counters) {
     scene_ = &scene;
     inside_ = contacts;
@@ -61,7 +60,10 @@ void MarginContacts::find(const EdgeScene& scene, double margin, std::span<const
         worker.tile = nullptr;
     }
     found_.clear();
-    carry(scene);
+    scene.carry(std::span<const MarginContact>(contacts_), [&](const MarginContact& contact) {
+        reserve_sparingly(found_, found_.size() + 1);
+        found_.push_back({contact, 0}); // there is no other for this vertex and mesh
+    });
     counters.carried_proximities = found_.size();
     search.find_near(scene, margin, *this);
     std::size_t count = found_.size();
@@ -76,28 +78,6 @@ void MarginContacts::find(const EdgeScene& scene, double margin, std::span<const
     workers_.level();
     put_in_order();
     counters.proximities = contacts_.size();
-}
-
-// Those of the last step between bodies that have not moved since.
-void MarginContacts::carry(const EdgeScene& scene) {
-    if (!scene.engine) return;
-    const auto rests = [&](vox_body mesh) {
-        const auto body = std::lower_bound(scene.bodies.begin(), scene.bodies.end(), mesh,
-                                           [](const Body& b, vox_body id) { return b.mesh_id < id; });
-        return body != scene.bodies.end() && body->mesh_id == mesh &&
-               !scene.engine->moved(static_cast<std::size_t>(body - scene.bodies.begin()));
-    };
-    vox_body last_a = VOX_NULL_BODY, last_b = VOX_NULL_BODY;
-    bool last_rests = false;
-    for (const MarginContact& contact : contacts_) {
-        if (contact.body_a != last_a || contact.body_b != last_b)
-            last_rests = rests(contact.body_a) && rests(contact.body_b);
-        last_a = contact.body_a;
-        last_b = contact.body_b;
-        if (!last_rests) continue;
-        reserve_sparingly(found_, found_.size() + 1);
-        found_.push_back({contact, 0}); // there is no other for this vertex and mesh
-    }
 }
 
 // Vertices that are gone, and those that have a contact.

@@ -40,7 +40,7 @@ public:
 
     // Replaces the margin contacts; `contacts` are those of the step, in canonical order. Those between
     // bodies at rest are carried over. If it throws, clear() is to be called.
-    void find(const EdgeScene& scene, double margin, std::span<const vox_contact> contacts,
+    void find(const StepScene& scene, double margin, std::span<const vox_contact> contacts,
               VertexFaceSearch& search, Counters& counters);
 
     std::span<const MarginContact> all() const noexcept { return contacts_; }
@@ -91,13 +91,12 @@ private:
     void begin(const VertexFacePair& pair, std::uint32_t worker) override;
     void visit(const SurfaceTile& tile, std::span<const NearFaces> near, std::uint32_t worker) override;
     void end(std::uint32_t worker) override;
-    void carry(const EdgeScene& scene);
     void load(Worker& worker, const SurfaceTile& tile) const;
     void visit(Worker& worker, const SurfaceTile& tile, const NearFaces& near) const;
     void put_in_order();
 
     PerWorker<Worker> workers_;
-    const EdgeScene* scene_ = nullptr; // during a step, as are the next two
+    const StepScene* scene_ = nullptr; // during a step, as are the next two
     std::span<const vox_contact> inside_;
     double most_ = 0; // the margin, squared
     Array<Found> found_;

@@ -31,7 +31,7 @@ void Passages::forget(vox_body mesh) noexcept {
     erase_if(bound_, [mesh](const Bound& bound) { return bound.mesh == mesh; });
 }
 
-void Passages::find(const EdgeScene& scene, std::span<const vox_contact> contacts, VertexFaceSearch& search,
+void Passages::find(const StepScene& scene, std::span<const vox_contact> contacts, VertexFaceSearch& search,
                     Counters& counters) {
     scene_ = &scene;
     previous_.assign(scene.bodies.size(), {});

@@ -52,7 +52,7 @@ public:
 
     // Replaces the passages; `contacts` are those of the step, in canonical order. If it throws, clear() is
     // to be called.
-    void find(const EdgeScene& scene, std::span<const vox_contact> contacts, VertexFaceSearch& search,
+    void find(const StepScene& scene, std::span<const vox_contact> contacts, VertexFaceSearch& search,
               Counters& counters);
 
     std::span<const Passage> all() const noexcept { return passages_; }
@@ -102,7 +102,7 @@ private:
 
     Array<Bound> bound_;               // by mesh
     Array<Positions> previous_;        // of each body of a step
-    const EdgeScene* scene_ = nullptr; // during a step
+    const StepScene* scene_ = nullptr; // during a step
     PerWorker<Worker> workers_;
     Array<Passage> found_, passages_;
     Array<Impact> impacts_;

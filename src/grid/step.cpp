@@ -44,13 +44,14 @@ void vox_grid::step() {
         if (!all_carried) make_contacts(bodies_, hits_, contacts_, &workers_, &interiors_);
         std::uint64_t contacts_made = nanoseconds();
         profile.contacts_ns = contacts_made - detected;
-        const bool same_edges = find_edges(counters);
+        const StepScene scene = surface_scene();
+        const bool same_edges = find_edges(scene, counters);
         if (edges_) {
             profile.edges_ns = nanoseconds() - contacts_made;
             contacts_made += profile.edges_ns;
         }
         if (near_faces_) {
-            find_near(counters);
+            find_near(scene, counters);
             profile.margin_ns = nanoseconds() - contacts_made;
             contacts_made += profile.margin_ns;
         }
@@ -116,18 +117,25 @@ std::span<const IdPair> vox_grid::touching_pairs() {
     return touching_pairs_;
 }
 
+// What the searches over surfaces read.
+StepScene vox_grid::surface_scene() {
+    StepScene scene{bodies_, topologies_, surface_versions_, &workers_};
+    if (fast_)
+        fast_engine_.fill(scene);
+    else if (finds_surfaces())
+        streamed_.fill(prepared_, scene);
+    return scene;
+}
+
 // Returns whether there are the same edge contacts as in the last step, or none are looked for.
-bool vox_grid::find_edges(Counters& counters) {
+bool vox_grid::find_edges(const StepScene& scene, Counters& counters) {
     if (!edges_) return true;
-    edges_->find({bodies_, topologies_, surface_versions_, fast_ ? &fast_engine_ : nullptr, &workers_},
-                 counters);
+    edges_->find(scene, counters);
     return edges_->unchanged();
 }
 
 // Vertices near or through surfaces that they are not inside of.
-void vox_grid::find_near(Counters& counters) {
-    const EdgeScene scene{bodies_, topologies_, surface_versions_, fast_ ? &fast_engine_ : nullptr,
-                          &workers_};
+void vox_grid::find_near(const StepScene& scene, Counters& counters) {
     if (passages_) passages_->find(scene, contacts_, *near_faces_, counters);
     if (margin_contacts_) margin_contacts_->find(scene, margin_, contacts_, *near_faces_, counters);
 }
@@ -241,7 +249,7 @@ void vox_grid::gather_bodies(Counters& counters) {
         topologies_.push_back(&mesh.topology());
         if (finds_surfaces()) surface_versions_.push_back({mesh.topology_version(), mesh.tiles_version()});
         slot.edited = false;
-        if (fast_)
+        if (fast_ || finds_surfaces())
             prepared_.push_back({&mesh.tiled().tiles, &mesh.tiled().boundary, &slot.state,
                                  lone_.compared(slot_of(id)), lone_.moved(slot_of(id))});
     };

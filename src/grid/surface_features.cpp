@@ -73,7 +73,7 @@ bool has_vertex(const Triangle& triangle, std::uint32_t vertex) {
 
 // Adds the tile of these triangles, of which `place` has all.
 void add_tile(const Topology& topology, std::span<const std::uint32_t> tile,
-              const Array<std::uint32_t>& place, const Tiles* tiles, SurfaceFeatures& out) {
+              const Array<std::uint32_t>& place, const Tiles& tiles, SurfaceFeatures& out) {
     std::array<std::uint32_t, SurfaceTile::most_vertices> vertices;
     auto end = vertices.begin();
     for (const std::uint32_t t : tile) end = std::copy_n(topology.triangles[t].v, 3, end);
@@ -97,12 +97,10 @@ void add_tile(const Topology& topology, std::span<const std::uint32_t> tile,
             if (is_first) out.edges.push_back({index_of(a), index_of(b)});
         }
     }
-    if (tiles)
-        for (auto v = vertices.begin(); v != end; ++v) {
-            const std::uint32_t block = tiles->block_of(*v);
-            if (out.blocks.size() == made.first_block || out.blocks.back() != block)
-                out.blocks.push_back(block);
-        }
+    for (auto v = vertices.begin(); v != end; ++v) {
+        const std::uint32_t block = tiles.block_of(*v);
+        if (out.blocks.size() == made.first_block || out.blocks.back() != block) out.blocks.push_back(block);
+    }
     made.block_count = static_cast<std::uint8_t>(out.blocks.size() - made.first_block);
     made.vertex_count = static_cast<std::uint8_t>(end - vertices.begin());
     made.face_count = static_cast<std::uint8_t>(tile.size());
@@ -124,7 +122,7 @@ void add_group(std::size_t first, SurfaceFeatures& out) {
 
 } // namespace
 
-void make_surface_features(const Topology& topology, const Positions& positions, const Tiles* tiles,
+void make_surface_features(const Topology& topology, const Positions& positions, const Tiles& tiles,
                            SurfaceFeatures& out) {
     std::pmr::memory_resource* memory = out.tiles.memory();
     const std::size_t count = topology.triangles.size();

@@ -39,8 +39,8 @@ struct SurfaceFeatures {
     Array<SurfaceTile> tiles;
     Array<SurfaceGroup> groups;
     Array<std::uint32_t> vertices; // of the mesh
-    // For the fast engine: the blocks that hold the vertices of a tile, and the groups of blocks
-    // (fast::group_blocks) that hold those of a group of tiles.
+    // The blocks that hold the vertices of a tile, and the groups of blocks (fast::group_blocks) that hold
+    // those of a group of tiles.
     Array<std::uint32_t> blocks, block_groups;
     // Indices of vertices of the tile.
     Array<std::array<std::uint8_t, 3>> faces;
@@ -51,39 +51,35 @@ struct SurfaceFeatures {
 
 // The boxes of the blocks of a body, and of groups of them.
 struct BlockBoxes {
-    const Box *blocks = nullptr, *groups = nullptr;
+    const Box *blocks, *groups;
 };
 
 // Makes the boxes of the tiles [first, last), the first one at the begin of a group, `out[0]` that of
 // `first`: by `box_of`, or empty where the blocks of a tile, and so its faces, all lie to one side of
-// `region`. Without blocks all get a box.
+// `region`.
 template <class BoxOfTile>
 void make_boxes_in(const Box& region, const SurfaceFeatures& features, const BlockBoxes& boxes,
                    std::uint32_t first, std::uint32_t last, Box* out, const BoxOfTile& box_of) {
-    const bool has_blocks = boxes.blocks && !features.blocks.empty();
     for (std::uint32_t begin = first; begin < last; begin += tiles_of_group) {
         const std::uint32_t end = std::min(begin + tiles_of_group, last);
         const SurfaceGroup& group = features.groups[begin / tiles_of_group];
-        if (has_blocks &&
-            fast::common_sides(boxes.groups, {features.block_groups.data() + group.first, group.count},
+        if (fast::common_sides(boxes.groups, {features.block_groups.data() + group.first, group.count},
                                region)) {
             out = std::fill_n(out, end - begin, empty_box);
             continue;
         }
         for (std::uint32_t t = begin; t < end; ++t) {
             const SurfaceTile& tile = features.tiles[t];
-            const bool is_to_one_side =
-                has_blocks &&
-                fast::common_sides(boxes.blocks,
-                                   {features.blocks.data() + tile.first_block, tile.block_count}, region);
+            const bool is_to_one_side = fast::common_sides(
+                boxes.blocks, {features.blocks.data() + tile.first_block, tile.block_count}, region);
             *out++ = is_to_one_side ? empty_box : box_of(tile);
         }
     }
 }
 
-// Of an empty `out`. `tiles` are those of the mesh; null: there are no blocks. Takes time linear in the tets,
-// and n log n in the faces. Throws what the memory throws.
-void make_surface_features(const Topology& topology, const Positions& positions, const Tiles* tiles,
+// Of an empty `out`. `tiles` are those of the mesh. Takes time linear in the tets, and n log n in the faces.
+// Throws what the memory throws.
+void make_surface_features(const Topology& topology, const Positions& positions, const Tiles& tiles,
                            SurfaceFeatures& out);
 
 } // namespace vox

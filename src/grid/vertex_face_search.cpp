@@ -7,7 +7,6 @@
 #include "base/room.hpp"
 #include "base/vectors.hpp"
 #include "fast/broad_phase.hpp"
-#include "fast/engine.hpp"
 #include "fast/stream.hpp"
 #include "mesh/check.hpp"
 #include "mesh/facets.hpp"
@@ -30,8 +29,6 @@ constexpr std::size_t near_task_searches = 8; // of tiles against all vertices o
 
 constexpr std::size_t near_small_body = 64; // tiles, which take no task of their own
 
-constexpr std::uint32_t vertices_of_block = 8;
-
 // Positions of which nothing is known but the nearest floats are off by 2^-24 of the largest coordinate at
 // most, on each axis, and so is a side of a box that has grown.
 constexpr double rounding = 0x1p-21;
@@ -50,6 +47,18 @@ float growth(const Box& box, double margin) noexcept {
         largest = std::max({largest, double{std::abs(box.lo[i])}, double{std::abs(box.hi[i])}});
     const double by = 0.5 * margin + rounding * (largest + margin) + 0x1p-126;
     return static_cast<float>(std::min(by, 0x1p126));
+}
+
+void check_previous(const Body& body, const Positions& previous) {
+    Body moving = body;
+    moving.positions = previous;
+    const std::uint32_t vertex = first_bad_vertex(moving);
+    if (vertex == VOX_NONE) return;
+    const vox_result result = bad_position(moving, vertex);
+    throw MeshError(result, body,
+                    format(", vertex %u: a coordinate of the previous position is %s", vertex,
+                           result == VOX_ERROR_LIMIT ? "too large" : "not finite"),
+                    vertex);
 }
 
 // The faces in the order that their tetrahedra have them in, which those of doubled ones may not be in, and
@@ -89,26 +98,15 @@ void VertexFaceSearch::forget(vox_body mesh) noexcept {
     erase_if(surfaces_, [mesh](const Kept& kept) { return kept.mesh == mesh; });
 }
 
-std::uint32_t VertexFaceSearch::Searched::begin_of(std::uint32_t block) const noexcept {
-    return first_of_block ? first_of_block[block] : vertices_of_block * block;
-}
-
-std::uint32_t VertexFaceSearch::Searched::end_of(std::uint32_t block) const noexcept {
-    return first_of_block ? first_of_block[block + 1]
-                          : std::min(vertices_of_block * (block + 1), vertex_count);
-}
-
 // ---- which bodies ---------------------------------------------------------------------------------
 
-void VertexFaceSearch::find_near(const Scene& scene, double margin, NearFacesVisitor& visitor) {
+void VertexFaceSearch::find_near(const StepScene& scene, double margin, NearFacesVisitor& visitor) {
     prepare_bodies(scene, {}, margin);
-    fast::PairRules rules{scene.bodies, {}};
-    if (scene.engine) rules.of = scene.engine->last_step().of;
-    fast::find_pairs(body_boxes_, rules, pair_buffers_, pairs_);
+    fast::find_pairs(body_boxes_, {scene.bodies, scene.of}, pair_buffers_, pairs_);
     search(scene, visitor);
 }
 
-void VertexFaceSearch::find_meeting(const Scene& scene, std::span<const Positions> previous,
+void VertexFaceSearch::find_meeting(const StepScene& scene, std::span<const Positions> previous,
                                     NearFacesVisitor& visitor) {
     prepare_bodies(scene, previous, 0);
     fast::find_pairs(body_boxes_, {scene.bodies, {}}, pair_buffers_, pairs_);
@@ -117,82 +115,52 @@ void VertexFaceSearch::find_meeting(const Scene& scene, std::span<const Position
     search(scene, visitor);
 }
 
-// Nearest floats, in packed_ from `place` on.
-void VertexFaceSearch::pack(const Positions& positions, const Vec3d& origin, std::uint32_t count,
-                            std::size_t& place) {
-    fast::round_positions(positions, origin, 0, count, packed_.data() + place);
-    place += 3 * std::size_t{count};
-}
-
-void VertexFaceSearch::prepare_bodies(const Scene& scene, std::span<const Positions> previous,
+// A body that moves gets boxes of its own, around where its vertices are and were.
+void VertexFaceSearch::prepare_bodies(const StepScene& scene, std::span<const Positions> previous,
                                       double margin) {
     const std::size_t bodies = scene.bodies.size();
     const auto moves = [&](std::size_t b) { return !previous.empty() && previous[b].data; };
-    const auto blocks_of = [](const Scene& s, std::size_t b) {
-        return s.engine ? s.engine->last_step().of[b].tiles->block_count()
-                        : (s.bodies[b].vertex_count + vertices_of_block - 1) / vertices_of_block;
-    };
     const auto groups_of = [](std::size_t count) {
         return (count + fast::group_blocks - 1) / fast::group_blocks;
     };
     std::size_t floats = 0, blocks = 0, groups = 0;
     for (std::size_t b = 0; b < bodies; ++b) {
-        const std::size_t count = scene.bodies[b].vertex_count;
-        floats += 3 * count * (std::size_t{!scene.engine} + std::size_t{moves(b)});
-        if (scene.engine && !moves(b)) continue;
-        blocks += blocks_of(scene, b);
-        groups += groups_of(blocks_of(scene, b));
+        if (!moves(b)) continue;
+        floats += 3 * std::size_t{scene.bodies[b].vertex_count};
+        blocks += scene.of[b].tiles->block_count();
+        groups += groups_of(scene.of[b].tiles->block_count());
     }
     packed_.resize(floats);
     block_boxes_.resize(blocks);
     group_boxes_.assign(groups, empty_box);
     searched_.assign(bodies, {});
     body_boxes_.assign(bodies, empty_box);
-    const Vec3d origin = scene.engine ? scene.engine->last_step().origin : Vec3d{0, 0, 0};
-    std::size_t float_place = 0, block_place = 0, group_place = 0;
+    float* packed = packed_.data();
+    Box *boxes = block_boxes_.data(), *around = group_boxes_.data();
     for (std::size_t b = 0; b < bodies; ++b) {
-        const Body& body = scene.bodies[b];
+        const fast::StepBody& of = scene.of[b];
         Searched& out = searched_[b];
-        out.vertex_count = body.vertex_count;
-        if (scene.engine) {
-            const fast::StepBody& of = scene.engine->last_step().of[b];
-            out.at = of.positions;
-            out.blocks = {scene.engine->boxes().blocks.data() + of.first_block,
-                          scene.engine->boxes().groups.data() + of.first_group};
-            out.first_of_block = of.tiles->block_first.data();
-            out.block_count = of.tiles->block_count();
-            out.box = scene.engine->boxes().bodies[b];
-        } else {
-            out.at = packed_.data() + float_place;
-            pack(body.positions, origin, body.vertex_count, float_place);
-        }
+        out.at = of.positions;
+        out.blocks = {scene.boxes->blocks.data() + of.first_block,
+                      scene.boxes->groups.data() + of.first_group};
+        out.first_of_block = of.tiles->block_first;
+        out.box = scene.boxes->bodies[b];
         if (moves(b)) {
-            Body moving = body;
-            moving.positions = previous[b];
-            if (const std::uint32_t vertex = first_bad_vertex(moving); vertex != VOX_NONE)
-                throw MeshError(
-                    bad_position(moving, vertex), body,
-                    format(", vertex %u: a coordinate of the previous position is %s", vertex,
-                           bad_position(moving, vertex) == VOX_ERROR_LIMIT ? "too large" : "not finite"),
-                    vertex);
-            out.before = packed_.data() + float_place;
-            pack(previous[b], origin, body.vertex_count, float_place);
-        }
-        if (!scene.engine || moves(b)) {
-            Box* boxes = block_boxes_.data() + block_place;
-            Box* around = group_boxes_.data() + group_place;
+            check_previous(scene.bodies[b], previous[b]);
+            fast::round_positions(previous[b], scene.origin, 0, scene.bodies[b].vertex_count, packed);
+            out.before = packed;
             out.blocks = {boxes, around};
-            if (!scene.engine) out.block_count = blocks_of(scene, b);
-            block_place += out.block_count;
-            group_place += groups_of(out.block_count);
             out.box = empty_box;
-            for (std::uint32_t block = 0; block < out.block_count; ++block) {
+            for (std::uint32_t block = 0; block < out.block_count(); ++block) {
                 boxes[block] = empty_box;
-                for (std::uint32_t v = out.begin_of(block); v < out.end_of(block); ++v)
+                for (std::uint32_t v = out.first_of_block[block]; v < out.first_of_block[block + 1]; ++v)
                     add(boxes[block], out.vertex_box(v));
                 add(around[block / fast::group_blocks], boxes[block]);
                 add(out.box, boxes[block]);
             }
+            packed += 3 * std::size_t{scene.bodies[b].vertex_count};
+            boxes += out.block_count();
+            around += groups_of(out.block_count());
         }
         if (is_empty(out.box)) continue;
         if (margin > 0) out.grow = growth(out.box, margin);
@@ -202,14 +170,13 @@ void VertexFaceSearch::prepare_bodies(const Scene& scene, std::span<const Positi
 
 // ---- which tiles ----------------------------------------------------------------------------------
 
-const SearchedSurface& VertexFaceSearch::surface_of(const Scene& scene, std::uint32_t body) {
+const SearchedSurface& VertexFaceSearch::surface_of(const StepScene& scene, std::uint32_t body) {
     const vox_body mesh = scene.bodies[body].mesh_id;
     auto place = std::lower_bound(surfaces_.begin(), surfaces_.end(), mesh,
                                   [](const Kept& kept, vox_body id) { return kept.mesh < id; });
     if (place == surfaces_.end() || place->mesh != mesh || place->version != scene.versions[body]) {
         Kept made{mesh, scene.versions[body], SearchedSurface(memory())};
-        make_surface_features(*scene.topologies[body], scene.bodies[body].positions,
-                              scene.engine ? scene.engine->last_step().of[body].tiles : nullptr,
+        make_surface_features(*scene.topologies[body], scene.bodies[body].positions, *scene.of[body].tiles,
                               made.surface.features);
         order_faces(scene.bodies[body].tets, made.surface);
         if (place == surfaces_.end() || place->mesh != mesh)
@@ -220,7 +187,7 @@ const SearchedSurface& VertexFaceSearch::surface_of(const Scene& scene, std::uin
     return place->surface;
 }
 
-void VertexFaceSearch::search(const Scene& scene, NearFacesVisitor& visitor) {
+void VertexFaceSearch::search(const StepScene& scene, NearFacesVisitor& visitor) {
     workers_.grow(scene.workers->count());
     erase_if(pairs_, [&](const fast::Pair& pair) { return scene.topologies[pair.b]->triangles.empty(); });
     prepare_surfaces(scene);
@@ -253,7 +220,7 @@ void VertexFaceSearch::search(const Scene& scene, NearFacesVisitor& visitor) {
 }
 
 // The surfaces of the bodies that are reached, and room for the boxes of their tiles.
-void VertexFaceSearch::prepare_surfaces(const Scene& scene) {
+void VertexFaceSearch::prepare_surfaces(const StepScene& scene) {
     for (const fast::Pair& pair : pairs_) {
         (void)surface_of(scene, pair.b); // which may move those of others
         Box reached = grown(searched_[pair.a].box, searched_[pair.a].grow + searched_[pair.b].grow);
@@ -276,7 +243,7 @@ void VertexFaceSearch::prepare_surfaces(const Scene& scene) {
 }
 
 // Of tiles that others may reach; the others get an empty box.
-void VertexFaceSearch::make_tile_boxes(const Scene& scene) {
+void VertexFaceSearch::make_tile_boxes(const StepScene& scene) {
     constexpr std::size_t least = near_task_tiles / near_small_body;
     scene.workers->for_ranges(pieces_.size(), least, [&](std::size_t begin, std::size_t end, std::uint32_t) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -322,14 +289,15 @@ bool VertexFaceSearch::list(const fast::Pair& pair, const NearFacesVisitor& visi
     Box around_tiles = empty_box;
     for (const std::uint32_t tile : worker.tiles) add(around_tiles, tile_boxes[tile]);
     const Box region = grown(around_tiles, reach);
-    list_met(a.block_count, worker.blocks, [&](std::uint32_t first, std::uint32_t some) {
+    list_met(a.block_count(), worker.blocks, [&](std::uint32_t first, std::uint32_t some) {
         return fast::find_blocks(a.blocks.blocks + first, a.blocks.groups + first / fast::group_blocks, some,
                                  region);
     });
     worker.vertices.clear();
     for (const std::uint32_t block : worker.blocks) {
-        reserve_growing(worker.vertices, worker.vertices.size() + (a.end_of(block) - a.begin_of(block)));
-        for (std::uint32_t v = a.begin_of(block); v < a.end_of(block); ++v)
+        const std::uint32_t begin = a.first_of_block[block], end = a.first_of_block[block + 1];
+        reserve_growing(worker.vertices, worker.vertices.size() + (end - begin));
+        for (std::uint32_t v = begin; v < end; ++v)
             if (overlap(a.vertex_box(v), region)) worker.vertices.push_back(v);
     }
     visitor.leave_out(pair.a, pair.b, worker.vertices);
@@ -350,11 +318,12 @@ void VertexFaceSearch::make_runs(const Searched& body, Worker& worker) const {
     const Array<std::uint32_t>& vertices = worker.vertices;
     auto block = worker.blocks.begin();
     for (std::uint32_t i = 0; i < vertices.size();) {
-        while (body.end_of(*block) <= vertices[i]) ++block;
+        while (body.first_of_block[*block + 1] <= vertices[i]) ++block;
         reserve_growing(worker.first_of_run, worker.first_of_run.size() + 2);
         worker.first_of_run.push_back(i);
         Box run = empty_box;
-        for (const std::uint32_t end = body.end_of(*block); i < vertices.size() && vertices[i] < end; ++i)
+        for (const std::uint32_t end = body.first_of_block[*block + 1];
+             i < vertices.size() && vertices[i] < end; ++i)
             add(run, body.vertex_box(vertices[i]));
         if (worker.runs.size() % near_group_size == 0) {
             reserve_growing(worker.groups, worker.groups.size() + 1);

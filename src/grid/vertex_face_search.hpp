@@ -6,7 +6,7 @@
 #include "base/boxes.hpp"
 #include "base/per_worker.hpp"
 #include "base/scene.hpp"
-#include "fast/body_pairs.hpp"
+#include "fast/step_scene.hpp"
 #include "grid/box_lanes.hpp"
 #include "grid/edge_contacts.hpp"
 #include "grid/surface_features.hpp"
@@ -23,7 +23,6 @@
 
 namespace vox {
 
-class FastEngine;
 class Workers;
 
 // A surface as the search reads it.
@@ -64,18 +63,15 @@ protected:
 
 class VertexFaceSearch {
 public:
-    // A step as it is when the hits are found, as for edge contacts.
-    using Scene = EdgeScene;
-
     explicit VertexFaceSearch(std::pmr::memory_resource* memory);
 
     // Finds vertices and faces of different bodies that may collide, and of which one moved since the last
     // step, as far as the engine knows; no such pair that is within `margin` is left out.
-    void find_near(const Scene& scene, double margin, NearFacesVisitor& visitor);
+    void find_near(const StepScene& scene, double margin, NearFacesVisitor& visitor);
     // The same for vertices and faces that may meet on their straight way from the previous positions, those
     // without data standing still, to the present ones. Throws MeshError with NON_FINITE or LIMIT for a
     // previous position.
-    void find_meeting(const Scene& scene, std::span<const Positions> previous, NearFacesVisitor& visitor);
+    void find_meeting(const StepScene& scene, std::span<const Positions> previous, NearFacesVisitor& visitor);
 
     // Of a mesh that is gone, or whose tetrahedra are others.
     void forget(vox_body mesh) noexcept;
@@ -90,18 +86,18 @@ private:
     struct Searched { // a body
         // Packed, rounded to floats; `before` is null for one that stands still.
         const float *at = nullptr, *before = nullptr;
-        // Boxes of runs of vertices, which begin at first_of_block, or are of eight each.
-        BlockBoxes blocks;
-        const std::uint32_t* first_of_block = nullptr;
-        std::uint32_t block_count = 0, vertex_count = 0;
+        // Blocks [first_of_block[i], first_of_block[i + 1]) of vertices, and their boxes.
+        BlockBoxes blocks{};
+        std::span<const std::uint32_t> first_of_block{};
         Box box = empty_box;                      // around all
         float grow = 0;                           // of two bodies, the sum is how far apart boxes can be
         const SearchedSurface* surface = nullptr; // null where no pair needs it
         std::uint32_t first_tile = 0;             // in tile_boxes_
         Box reached = empty_box;                  // around where the boxes of others reach that of the body
 
-        std::uint32_t begin_of(std::uint32_t block) const noexcept;
-        std::uint32_t end_of(std::uint32_t block) const noexcept;
+        std::uint32_t block_count() const noexcept {
+            return static_cast<std::uint32_t>(first_of_block.size() - 1);
+        }
         Box vertex_box(std::uint32_t vertex) const noexcept {
             const float* p = at + 3 * std::size_t{vertex};
             Box box{{p[0], p[1], p[2], 0}, {p[0], p[1], p[2], 0}};
@@ -126,12 +122,11 @@ private:
         Array<Box> runs, groups;           // boxes of runs, and of groups of them
     };
 
-    void prepare_bodies(const Scene& scene, std::span<const Positions> previous, double margin);
-    void pack(const Positions& positions, const Vec3d& origin, std::uint32_t count, std::size_t& place);
-    void search(const Scene& scene, NearFacesVisitor& visitor);
-    const SearchedSurface& surface_of(const Scene& scene, std::uint32_t body);
-    void prepare_surfaces(const Scene& scene);
-    void make_tile_boxes(const Scene& scene);
+    void prepare_bodies(const StepScene& scene, std::span<const Positions> previous, double margin);
+    void search(const StepScene& scene, NearFacesVisitor& visitor);
+    const SearchedSurface& surface_of(const StepScene& scene, std::uint32_t body);
+    void prepare_surfaces(const StepScene& scene);
+    void make_tile_boxes(const StepScene& scene);
     bool list(const fast::Pair& pair, const NearFacesVisitor& visitor, Worker& worker) const;
     void make_runs(const Searched& body, Worker& worker) const;
     void load(const Searched& body, const SurfaceTile& tile, float reach, FaceBoxes& out) const;
@@ -143,8 +138,8 @@ private:
     Array<Kept> surfaces_; // by mesh
 
     // One search.
-    Array<float> packed_;
-    Array<Box> block_boxes_, group_boxes_; // of bodies for which the engine has none
+    Array<float> packed_;                  // previous positions
+    Array<Box> block_boxes_, group_boxes_; // of bodies that move from there
     Array<Searched> searched_;             // of each body
     Array<Box> body_boxes_;
     fast::PairBuffers pair_buffers_;
