@@ -11,6 +11,8 @@
 #include "fast/stream.hpp"
 #include "fast/winding/certificate.hpp"
 
+#include <vox/vox.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -34,6 +36,7 @@ struct StepScene {
     std::span<const Topology* const> topologies; // of each body
     std::span<const SurfaceVersion> versions;    // of each body
     Workers* workers;
+    std::span<const vox_contact> contacts{}; // in canonical order, once they are made
 
     // Set by the engine, or by StreamedScene.
     std::span<const fast::StepBody> of{}; // each body: its packed positions, and whether it moved

@@ -14,11 +14,12 @@
 #include "fast/step_scene.hpp"
 #include "grid/constraints.hpp"
 #include "grid/edge_contacts.hpp"
+#include "grid/impacts.hpp"
 #include "grid/lone_bodies.hpp"
-#include "grid/margin_contacts.hpp"
 #include "grid/mesh_table.hpp"
 #include "grid/pairs.hpp"
-#include "grid/passages.hpp"
+#include "grid/proximities.hpp"
+#include "grid/surface_features.hpp"
 #include "grid/vertex_face_search.hpp"
 #include "query/locator.hpp"
 #include "reference/engine.hpp"
@@ -182,11 +183,12 @@ private:
     vox::Array<vox::Hit> hits_;
     vox::Array<vox::SurfaceVersion> surface_versions_; // of each body, while it finds some of the following
     vox::StreamedScene streamed_;                      // what these read of the reference engine's steps
+    vox::KeptFeatures features_;                       // of the surfaces that these came upon
     std::optional<vox::EdgeContacts> edges_;           // while it finds them; has the results as well
     double margin_ = 0;
-    std::optional<vox::VertexFaceSearch> near_faces_;    // while one of these is there
-    std::optional<vox::MarginContacts> margin_contacts_; // while there is a margin; has the results as well
-    std::optional<vox::Passages> passages_; // while a mesh has previous positions; has the results as well
+    std::optional<vox::VertexFaceSearch> near_faces_; // while one of these is there
+    std::optional<vox::Proximities> proximities_;     // while there is a margin; has the results as well
+    std::optional<vox::Impacts> impacts_; // while a mesh has previous positions; has the results as well
 
     // results
     vox::Array<vox_contact> contacts_;

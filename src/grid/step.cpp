@@ -24,8 +24,8 @@ void vox_grid::step() {
     depths_may_carry_ = stepped_ = false;
     failure_ = {};
     left_out_.clear();
-    if (passages_ && !passages_->any_bound()) {
-        passages_.reset();
+    if (impacts_ && !impacts_->any_bound()) {
+        impacts_.reset();
         look_near();
     }
     ++epoch_;
@@ -65,7 +65,7 @@ void vox_grid::step() {
             pairs_.repeat();
         else
             pairs_.update(contacts_, touching_pairs(),
-                          margin_contacts_ ? margin_contacts_->pairs() : std::span<const IdPair>(),
+                          proximities_ ? proximities_->pairs() : std::span<const IdPair>(),
                           meshes_.slot_count(), [this](vox_body id) { return mesh(id).user_data(); });
         profile.pairs_ns = nanoseconds() - contacts_made;
         if (finds_constraints_) make_constraints({}, true, counters, profile);
@@ -107,7 +107,7 @@ void vox_grid::step() {
 // Pairs that touch by edges, or by vertices that went through.
 std::span<const IdPair> vox_grid::touching_pairs() {
     const auto edges = edges_ ? edges_->pairs() : std::span<const IdPair>();
-    const auto impacts = passages_ ? passages_->pairs() : std::span<const IdPair>();
+    const auto impacts = impacts_ ? impacts_->pairs() : std::span<const IdPair>();
     if (impacts.empty()) return edges;
     touching_pairs_.clear();
     reserve_growing(touching_pairs_, edges.size() + impacts.size());
@@ -119,7 +119,7 @@ std::span<const IdPair> vox_grid::touching_pairs() {
 
 // What the searches over surfaces read.
 StepScene vox_grid::surface_scene() {
-    StepScene scene{bodies_, topologies_, surface_versions_, &workers_};
+    StepScene scene{bodies_, topologies_, surface_versions_, &workers_, contacts_};
     if (fast_)
         fast_engine_.fill(scene);
     else if (finds_surfaces())
@@ -130,20 +130,27 @@ StepScene vox_grid::surface_scene() {
 // Returns whether there are the same edge contacts as in the last step, or none are looked for.
 bool vox_grid::find_edges(const StepScene& scene, Counters& counters) {
     if (!edges_) return true;
-    edges_->find(scene, counters);
+    edges_->find(scene, features_);
+    edges_->count(counters);
     return edges_->unchanged();
 }
 
 // Vertices near or through surfaces that they are not inside of.
 void vox_grid::find_near(const StepScene& scene, Counters& counters) {
-    if (passages_) passages_->find(scene, contacts_, *near_faces_, counters);
-    if (margin_contacts_) margin_contacts_->find(scene, margin_, contacts_, *near_faces_, counters);
+    if (impacts_) {
+        impacts_->find(scene, *near_faces_);
+        impacts_->count(counters);
+    }
+    if (proximities_) {
+        proximities_->find(scene, *near_faces_);
+        proximities_->count(counters);
+    }
 }
 
 void vox_grid::forget_contacts() noexcept {
     if (edges_) edges_->clear();
-    if (margin_contacts_) margin_contacts_->clear();
-    if (passages_) passages_->clear();
+    if (proximities_) proximities_->clear();
+    if (impacts_) impacts_->clear();
     contacts_.clear();
     interiors_.clear();
     penetrations_.clear();

@@ -5,10 +5,14 @@
 
 #include "base/array.hpp"
 #include "base/vectors.hpp"
+#include "mesh/facets.hpp"
+#include "mesh/tiles.hpp"
+#include "mesh/topology.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <span>
+#include <utility>
 
 namespace vox {
 
@@ -88,7 +92,6 @@ void add_tile(const Topology& topology, std::span<const std::uint32_t> tile,
     for (const std::uint32_t t : tile) {
         const std::uint32_t* v = topology.triangles[t].v;
         out.faces.push_back({index_of(v[0]), index_of(v[1]), index_of(v[2])});
-        out.triangles.push_back(t);
         for (int side = 0; side < 3; ++side) {
             const std::uint32_t a = v[side], b = v[(side + 1) % 3];
             bool is_first = true;
@@ -120,20 +123,44 @@ void add_group(std::size_t first, SurfaceFeatures& out) {
                           static_cast<std::uint32_t>(groups.end() - groups.begin() - begin)});
 }
 
-} // namespace
+// The tetrahedron behind each face, and which of its facets the face is.
+void add_tets(const Topology& topology, const Array<std::uint32_t>& place, SurfaceFeatures& out) {
+    out.tets.assign(place.size(), ~0u);
+    out.facets.resize(place.size());
+    for (std::uint32_t tet = 0; tet < topology.across.size(); ++tet)
+        for (std::uint8_t facet = 0; facet < 4; ++facet) {
+            const std::uint32_t across = topology.across(tet, facet);
+            if (across == Across::nothing || !(across & Across::surface_bit)) continue;
+            const std::uint32_t face = place[across & ~Across::surface_bit];
+            if (out.tets[face] != ~0u) continue; // doubled
+            out.tets[face] = tet;
+            out.facets[face] = facet;
+        }
+}
 
-void make_surface_features(const Topology& topology, const Positions& positions, const Tiles& tiles,
-                           SurfaceFeatures& out) {
+// Puts the corners of faces in the order of their facets, which those of doubled tetrahedra may not be in.
+void order_corners(std::span<const Tet> tets, SurfaceFeatures& out) {
+    for (const SurfaceTile& tile : out.tiles)
+        for (std::uint32_t f = tile.first_face; f < tile.first_face + tile.face_count; ++f) {
+            const std::array<std::uint8_t, 3> given = out.faces[f];
+            for (std::size_t c = 0; c < 3; ++c) {
+                const std::uint32_t vertex = tets[out.tets[f]].v[facet_corners[out.facets[f]][c]];
+                for (const std::uint8_t i : given)
+                    if (out.vertices[tile.first_vertex + i] == vertex) out.faces[f][c] = i;
+            }
+        }
+}
+
+void make_features(const Topology& topology, const Body& body, const Tiles& tiles, SurfaceFeatures& out) {
     std::pmr::memory_resource* memory = out.tiles.memory();
     const std::size_t count = topology.triangles.size();
-    const Array<std::uint32_t> order = order_of_faces(topology, positions, memory);
+    const Array<std::uint32_t> order = order_of_faces(topology, body.positions, memory);
     Array<std::uint32_t> place(count, memory);
     for (std::size_t i = 0; i < count; ++i) place[order[i]] = static_cast<std::uint32_t>(i);
 
     // A closed surface has three edges for two faces. Vertices are in two tiles, or three.
     out.tiles.reserve((count + SurfaceTile::most_faces - 1) / SurfaceTile::most_faces);
     out.faces.reserve(count);
-    out.triangles.reserve(count);
     out.edges.reserve(count + count / 2 + 3);
     out.vertices.reserve(count + 3);
     for (std::size_t first = 0; first < count; first += SurfaceTile::most_faces) {
@@ -145,15 +172,28 @@ void make_surface_features(const Topology& topology, const Positions& positions,
     }
     if (const std::size_t rest = out.tiles.size() % tiles_of_group; rest > 0)
         add_group(out.tiles.size() - rest, out);
+    add_tets(topology, place, out);
+    order_corners(body.tets, out);
+}
 
-    out.tets.assign(count, ~0u);
-    for (std::uint32_t tet = 0; tet < topology.across.size(); ++tet)
-        for (std::uint32_t facet = 0; facet < 4; ++facet) {
-            const std::uint32_t across = topology.across(tet, facet);
-            if (across == Across::nothing || !(across & Across::surface_bit)) continue;
-            std::uint32_t& of_face = out.tets[place[across & ~Across::surface_bit]];
-            of_face = std::min(of_face, tet);
-        }
+} // namespace
+
+const SurfaceFeatures& KeptFeatures::of(const StepScene& scene, std::uint32_t body) {
+    const vox_body mesh = scene.bodies[body].mesh_id;
+    auto place = std::ranges::lower_bound(meshes_, mesh, {}, &Kept::mesh);
+    const bool is_there = place != meshes_.end() && place->mesh == mesh;
+    if (is_there && place->version == scene.versions[body]) return place->features;
+    Kept made{mesh, scene.versions[body], SurfaceFeatures(meshes_.memory())};
+    make_features(*scene.topologies[body], scene.bodies[body], *scene.of[body].tiles, made.features);
+    if (is_there)
+        *place = std::move(made);
+    else
+        place = meshes_.insert(place, std::move(made));
+    return place->features;
+}
+
+void KeptFeatures::forget(vox_body mesh) noexcept {
+    erase_if(meshes_, [mesh](const Kept& kept) { return kept.mesh == mesh; });
 }
 
 } // namespace vox
