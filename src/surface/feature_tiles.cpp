@@ -15,8 +15,12 @@ namespace vox {
 
 namespace {
 
-// At most two floats below lower_side() for doubles, and the same as it for floats.
-float float_below(double at) noexcept { return number_before(static_cast<float>(at)); }
+// The side of the box of a vertex in floats: the same as lower_side() for floats; for doubles at most two
+// floats below it, as seen from the origin. What is rounded there is much less than a float.
+float float_below(double at, double radius, bool doubles, double origin) noexcept {
+    if (!doubles) return static_cast<float>(lower_side(at, radius, false));
+    return number_before(static_cast<float>(lower_side(at, radius, true) - origin));
+}
 
 struct Middle {
     float at[3]; // as seen from the first vertex
@@ -69,12 +73,15 @@ void cut_into_tiles(std::span<Middle> items, Array<std::uint32_t>& features) {
 
 void make_vertex_boxes(const SurfaceMotion& motion, Array<Box>& out) {
     out.resize(motion.from.size());
-    const double r = motion.radius;
+    const auto below = [&](double at, double origin) {
+        return float_below(at, motion.radius, motion.doubles, origin);
+    };
+    const Vec3d o = motion.origin;
     for (std::size_t v = 0; v < out.size(); ++v) {
         const Vec3d p = motion.from[v], q = motion.to[v];
         const Vec3d lo = min(p, q), hi = max(p, q);
-        out[v] = {{float_below(lo.x - r), float_below(lo.y - r), float_below(lo.z - r), 0},
-                  {-float_below(-hi.x - r), -float_below(-hi.y - r), -float_below(-hi.z - r), 0}};
+        out[v] = {{below(lo.x, o.x), below(lo.y, o.y), below(lo.z, o.z), 0},
+                  {-below(-hi.x, -o.x), -below(-hi.y, -o.y), -below(-hi.z, -o.z), 0}};
     }
 }
 

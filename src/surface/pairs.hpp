@@ -104,10 +104,6 @@ private:
 
     struct TileSearch;
 
-    static void quantise(const Task& task, std::uint32_t t, TileSearch& tile, Worker& worker) noexcept;
-    static bool are_floats_coarse(const Task& task, std::uint32_t t, const TileSearch& tile) noexcept;
-    static void quantise_by_doubles(const Task& task, std::uint32_t t, TileSearch& tile,
-                                    QuantisedTile& out) noexcept;
     static std::uint64_t overlapping(const Task& task, const TileSearch& tile, std::uint64_t lanes,
                                      std::uint32_t slot, Worker& worker) noexcept;
     template <unsigned Corners>

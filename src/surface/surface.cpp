@@ -53,6 +53,14 @@ void vox_surface::move(const vox_motion& motion) {
     if (motion.to.data) copy(to, positions_[1]);
     motion_ = {positions_[0], motion.to.data ? positions_[1] : positions_[0], motion.radius, from.doubles,
                (motion.flags & VOX_MOTION_CULL) != 0};
+    if (from.doubles && count > 0) {
+        Vec3d lo = positions_[0][0], hi = lo;
+        for (const Vec3d& p : positions_[0]) {
+            lo = min(lo, p);
+            hi = max(hi, p);
+        }
+        motion_.origin = 0.5 * lo + 0.5 * hi;
+    }
     has_motion_ = true;
     search_.forget_boxes();
     piece_ = {};
@@ -67,7 +75,7 @@ const SurfaceMotion& vox_surface::motion() const {
 
 SurfaceMotion vox_surface::at_end(double radius) const {
     const SurfaceMotion& moving = motion();
-    return {moving.to, moving.to, radius, moving.doubles, false};
+    return {moving.to, moving.to, radius, moving.doubles, false, moving.origin};
 }
 
 void vox_surface::set_cell_size(double cell_size) {
