@@ -15,13 +15,6 @@ namespace vox {
 
 namespace {
 
-// The side of the box of a vertex in floats: the same as lower_side() for floats; for doubles at most two
-// floats below it, as seen from the origin. What is rounded there is much less than a float.
-float float_below(double at, double radius, bool doubles, double origin) noexcept {
-    if (!doubles) return static_cast<float>(lower_side(at, radius, false));
-    return number_before(static_cast<float>(lower_side(at, radius, true) - origin));
-}
-
 struct Middle {
     float at[3]; // as seen from the first vertex
     std::uint32_t feature;
@@ -71,18 +64,26 @@ void cut_into_tiles(std::span<Middle> items, Array<std::uint32_t>& features) {
 
 } // namespace
 
+// Sides in floats: those of lower_side() for floats, and for doubles at most two floats below them. What is
+// rounded when the origin is subtracted is much less than a float.
 void make_vertex_boxes(const SurfaceMotion& motion, Array<Box>& out) {
     out.resize(motion.from.size());
-    const auto below = [&](double at, double origin) {
-        return float_below(at, motion.radius, motion.doubles, origin);
-    };
     const Vec3d o = motion.origin;
-    for (std::size_t v = 0; v < out.size(); ++v) {
-        const Vec3d p = motion.from[v], q = motion.to[v];
-        const Vec3d lo = min(p, q), hi = max(p, q);
-        out[v] = {{below(lo.x, o.x), below(lo.y, o.y), below(lo.z, o.z), 0},
-                  {-below(-hi.x, -o.x), -below(-hi.y, -o.y), -below(-hi.z, -o.z), 0}};
-    }
+    const auto make = [&](const auto& below) {
+        for (std::size_t v = 0; v < out.size(); ++v) {
+            const Vec3d p = motion.from[v], q = motion.to[v];
+            const Vec3d lo = min(p, q), hi = max(p, q);
+            out[v] = {{below(lo.x, o.x), below(lo.y, o.y), below(lo.z, o.z), 0},
+                      {-below(-hi.x, -o.x), -below(-hi.y, -o.y), -below(-hi.z, -o.z), 0}};
+        }
+    };
+    const double r = motion.radius;
+    if (o.x == 0 && o.y == 0 && o.z == 0)
+        make([r](double at, double) { return number_before(static_cast<float>(at - r)); });
+    else
+        make([r](double at, double origin) {
+            return number_before(static_cast<float>(lower_side(at, r, true) - origin));
+        });
 }
 
 void make_feature_tiles(const SurfaceTopology& topology, vox_feature feature, std::span<const Vec3d> from,

@@ -19,8 +19,8 @@ struct SurfaceMotion {
     double radius = 0;
     bool doubles = false; // the caller's format; else every coordinate is a float
     bool cull = false;    // leave out pairs that stay further apart than 2 * radius
-    // In the middle of positions that are doubles, else zero: floats are made of what is left of them, as
-    // floats are far apart far from zero.
+    // Far from zero, floats are far apart. There they are made of what is left of doubles without this point
+    // in the middle of all.
     Vec3d origin{};
 
     bool moves() const noexcept { return from.data() != to.data(); }
