@@ -1,9 +1,8 @@
-// Faces are split at the median of their middles until as many are left as make a tile (J. Bentley,
-// Multidimensional binary search trees used for associative searching, Commun. ACM 18, 1975). An edge belongs
-// to the first of its faces in the order of the tiles.
+// Tiles are made by splits at medians. An edge belongs to the first of its faces in their order.
 #include "grid/surface_features.hpp"
 
 #include "base/array.hpp"
+#include "base/median_splits.hpp"
 #include "base/vectors.hpp"
 #include "mesh/facets.hpp"
 #include "mesh/tiles.hpp"
@@ -18,56 +17,18 @@ namespace vox {
 
 namespace {
 
-// A face and three times its middle.
-struct Face {
-    double middle[3];
-    std::uint32_t triangle;
-};
-
-// Puts faces in the order of their tiles: the middles are split where they reach furthest, and the halves
-// again, each of whole tiles and, while they can be, of whole groups.
-void split_into_tiles(std::span<Face> faces) {
-    if (faces.size() <= SurfaceTile::most_faces) {
-        std::sort(faces.begin(), faces.end(),
-                  [](const Face& a, const Face& b) { return a.triangle < b.triangle; });
-        return;
-    }
-    int widest = 0;
-    double most = -1;
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto [least, greatest] =
-            std::minmax_element(faces.begin(), faces.end(), [axis](const Face& a, const Face& b) {
-                return a.middle[axis] < b.middle[axis];
-            });
-        const double extent = greatest->middle[axis] - least->middle[axis];
-        if (extent <= most) continue;
-        most = extent;
-        widest = axis;
-    }
-    const std::size_t tiles = (faces.size() + SurfaceTile::most_faces - 1) / SurfaceTile::most_faces,
-                      unit = tiles > tiles_of_group ? tiles_of_group : 1;
-    const std::size_t first_half = SurfaceTile::most_faces * ((tiles / 2 + unit - 1) / unit * unit);
-    std::nth_element(faces.begin(), faces.begin() + static_cast<std::ptrdiff_t>(first_half), faces.end(),
-                     [widest](const Face& a, const Face& b) {
-                         return a.middle[widest] != b.middle[widest] ? a.middle[widest] < b.middle[widest]
-                                                                     : a.triangle < b.triangle;
-                     });
-    split_into_tiles(faces.first(first_half));
-    split_into_tiles(faces.subspan(first_half));
-}
-
-// Of each place the triangle there.
+// The triangles in the order of their tiles, by three times their middles.
 Array<std::uint32_t> order_of_faces(const Topology& topology, const Positions& positions,
                                     std::pmr::memory_resource* memory) {
-    Array<Face> faces(topology.triangles.size(), memory);
+    Array<SplitPoint<double>> faces(topology.triangles.size(), memory);
     for (std::uint32_t t = 0; t < faces.size(); ++t) {
         const std::uint32_t* v = topology.triangles[t].v;
         const Vec3d sum = positions.exact(v[0]) + positions.exact(v[1]) + positions.exact(v[2]);
         faces[t] = {{sum.x, sum.y, sum.z}, t};
     }
-    split_into_tiles(faces);
+    split_at_medians(std::span(faces), SurfaceTile::most_faces, tiles_of_group, [](const auto&) {});
     Array<std::uint32_t> order(faces.size(), memory);
-    for (std::size_t i = 0; i < faces.size(); ++i) order[i] = faces[i].triangle;
+    for (std::size_t i = 0; i < faces.size(); ++i) order[i] = faces[i].index;
     return order;
 }
 
