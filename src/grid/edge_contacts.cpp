@@ -164,17 +164,28 @@ void EdgeContacts::load(std::uint32_t body, std::uint32_t index, LoadedTile& out
     load_faces(*out.features, *out.tile, points, 0, out.faces);
     for (std::uint32_t e = 0; e < out.tile->edge_count; ++e) {
         const auto& [u, v] = out.ends[e];
-        Box box = points[u];
-        add(box, points[v]);
-        out.edges.set(e, box);
+        out.edges[e] = points[u];
+        add(out.edges[e], points[v]);
     }
 }
 
 void EdgeContacts::test(const StepScene& scene, LoadedTile& edges, LoadedTile& faces, Worker& worker) {
-    std::array<EdgeFaces, SurfaceTile::most_edges> near;
-    const std::uint32_t count = find_edge_faces(edges.edges, edges.tile->edge_count, edges.box, faces.faces,
-                                                faces.tile->face_count, near.data());
+    // Edges in the box of the faces, and the faces whose boxes these overlap, as bits.
+    std::array<std::uint32_t, SurfaceTile::most_edges> near, met;
+    std::array<Box, SurfaceTile::most_edges> boxes;
+    std::uint32_t count = 0;
+    for (std::uint32_t first = 0; first < edges.tile->edge_count; first += fast::most_boxes) {
+        const std::uint32_t some = std::min<std::uint32_t>(edges.tile->edge_count - first, fast::most_boxes);
+        for (std::uint64_t bits = fast::find_overlaps(&edges.edges[first], some, faces.box); bits;
+             bits &= bits - 1) {
+            near[count] = first + static_cast<std::uint32_t>(std::countr_zero(bits));
+            boxes[count] = edges.edges[near[count]];
+            ++count;
+        }
+    }
     if (count == 0) return;
+    find_faces(boxes.data(), count, faces.faces, faces.tile->face_count, met.data());
+    if (std::all_of(met.begin(), met.begin() + count, [](std::uint32_t bits) { return bits == 0; })) return;
     for (LoadedTile* tile : {&edges, &faces}) {
         if (!tile->has_points)
             load_positions(scene.bodies[tile->body].positions, *tile->features, *tile->tile,
@@ -182,13 +193,13 @@ void EdgeContacts::test(const StepScene& scene, LoadedTile& edges, LoadedTile& f
         tile->has_points = true;
     }
     const bool is_self = edges.body == faces.body;
-    for (const EdgeFaces& edge_faces : std::span(near).first(count)) {
-        const auto [edge, met] = edge_faces;
-        worker.candidates += static_cast<std::uint64_t>(std::popcount(met));
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t edge = near[i];
+        worker.candidates += static_cast<std::uint64_t>(std::popcount(met[i]));
         const auto& [u, v] = edges.ends[edge];
         const Vec3d &p = edges.points[u], &q = edges.points[v];
         const std::uint32_t low = edges.vertices[u], high = edges.vertices[v];
-        for (std::uint32_t left = met; left; left &= left - 1) {
+        for (std::uint32_t left = met[i]; left; left &= left - 1) {
             const auto face = static_cast<std::size_t>(std::countr_zero(left));
             const auto& [a, b, c] = faces.corners[face];
             if (is_self) {

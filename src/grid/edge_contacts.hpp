@@ -86,7 +86,7 @@ private:
         const std::array<std::uint8_t, 2>* ends = nullptr;    // of each edge
         Box box{};
         FaceBoxes faces;
-        EdgeBoxes edges;
+        std::array<Box, SurfaceTile::most_edges> edges;
         // Made when they are first needed.
         bool has_points = false;
         std::uint64_t has_plane = 0; // of each face, a bit
