@@ -108,9 +108,13 @@ vox_grid::vox_grid(const vox_grid_desc& desc, const MemoryShare& memory)
 void vox_grid::prepare(Mesh& mesh, fast::MeshState& state) {
     if (mesh.may_share()) mesh.share(shared_tets_);
     if (needs_topology(mesh.filter())) mesh.make_topology();
-    if (!mesh.has_positions() || !(fast_ || finds_surfaces())) return;
-    mesh.make_tiles();
-    if (fast_) state.update(mesh.tiled(), mesh.tiles_version(), mesh.vertex_count());
+    if (!mesh.has_positions()) return;
+    if (fast_) {
+        mesh.make_tiles();
+        state.update(mesh.tiled(), mesh.tiles_version(), mesh.vertex_count());
+    } else if (finds_surfaces()) {
+        mesh.make_tiles();
+    }
 }
 
 vox_body vox_grid::insert(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter) {

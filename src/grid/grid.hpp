@@ -129,9 +129,7 @@ private:
     void drop_surfaces() noexcept;
     void look_near() noexcept;
     void list_counters() noexcept;
-    void find_near(const vox::StepScene& scene, vox::Counters& counters);
-    bool find_edges(const vox::StepScene& scene, vox::Counters& counters);
-    vox::StepScene surface_scene();
+    bool search_surfaces(vox::Counters& counters, vox::Profile& profile);
     std::span<const vox::IdPair> touching_pairs();
     void scene_changed() noexcept;
     bool chooses_cell_size() const noexcept { return requested_cell_size_ == 0; }

@@ -44,17 +44,8 @@ void vox_grid::step() {
         if (!all_carried) make_contacts(bodies_, hits_, contacts_, &workers_, &interiors_);
         std::uint64_t contacts_made = nanoseconds();
         profile.contacts_ns = contacts_made - detected;
-        const StepScene scene = surface_scene();
-        const bool same_edges = find_edges(scene, counters);
-        if (edges_) {
-            profile.edges_ns = nanoseconds() - contacts_made;
-            contacts_made += profile.edges_ns;
-        }
-        if (near_faces_) {
-            find_near(scene, counters);
-            profile.margin_ns = nanoseconds() - contacts_made;
-            contacts_made += profile.margin_ns;
-        }
+        const bool same_edges = !finds_surfaces() || search_surfaces(counters, profile);
+        contacts_made += profile.edges_ns + profile.margin_ns;
 
         // If every contact was carried, so are the depths.
         if (!(carry && all_carried && had_depths)) depths_.all = false;
@@ -117,26 +108,20 @@ std::span<const IdPair> vox_grid::touching_pairs() {
     return touching_pairs_;
 }
 
-// What the searches over surfaces read.
-StepScene vox_grid::surface_scene() {
+// Edges through faces, vertices through faces, and vertices near faces that they are not inside of. Returns
+// whether there are the same edges as in the last step, or none are looked for.
+bool vox_grid::search_surfaces(Counters& counters, Profile& profile) {
+    const std::uint64_t start = nanoseconds();
     StepScene scene{bodies_, topologies_, surface_versions_, &workers_, contacts_};
     if (fast_)
         fast_engine_.fill(scene);
-    else if (finds_surfaces())
+    else
         streamed_.fill(prepared_, scene);
-    return scene;
-}
-
-// Returns whether there are the same edge contacts as in the last step, or none are looked for.
-bool vox_grid::find_edges(const StepScene& scene, Counters& counters) {
-    if (!edges_) return true;
-    edges_->find(scene, features_);
-    edges_->count(counters);
-    return edges_->unchanged();
-}
-
-// Vertices near or through surfaces that they are not inside of.
-void vox_grid::find_near(const StepScene& scene, Counters& counters) {
+    if (edges_) {
+        edges_->find(scene, features_);
+        edges_->count(counters);
+        profile.edges_ns = nanoseconds() - start;
+    }
     if (impacts_) {
         impacts_->find(scene, *near_faces_);
         impacts_->count(counters);
@@ -145,6 +130,8 @@ void vox_grid::find_near(const StepScene& scene, Counters& counters) {
         proximities_->find(scene, *near_faces_);
         proximities_->count(counters);
     }
+    if (near_faces_) profile.margin_ns = nanoseconds() - start - profile.edges_ns;
+    return !edges_ || edges_->unchanged();
 }
 
 void vox_grid::forget_contacts() noexcept {
