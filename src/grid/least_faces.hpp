@@ -62,7 +62,7 @@ protected:
         auto buffers() { return std::tie(found, least, of_vertex); }
 
         Array<Found> found;
-        // Of the pair that it is at.
+        // The pair that the worker is at.
         VertexFacePair pair{};
         Array<Least> least;
         struct OfVertex {
@@ -70,7 +70,7 @@ protected:
             std::uint32_t least; // its index; none_yet
         };
         Array<OfVertex> of_vertex;
-        // Of the tile that it is at.
+        // The tile that it is at.
         const SurfaceTile* tile = nullptr;
         Tile read;
     };

@@ -40,7 +40,7 @@ struct SearchedBody {
     Box box;                                       // around all vertices
     float grow;                                    // of two bodies, the sum is how far apart boxes can be
 
-    // Of bodies of which tiles are reached.
+    // Set for bodies of which tiles are reached.
     static constexpr std::uint32_t not_reached = ~0u;
     const SurfaceFeatures* features;
     std::uint32_t first_tile; // not_reached

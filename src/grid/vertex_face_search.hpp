@@ -55,8 +55,8 @@ public:
     // Finds vertices and faces of different bodies that may collide, and of which one moved since the last
     // step, as far as the engine knows; no such pair that is within `margin` is left out.
     void find_near(const StepScene& scene, double margin, NearFacesVisitor& visitor);
-    // The same for vertices and faces that may meet on their straight way from the previous positions, those
-    // without data standing still, to the present ones. Throws MeshError with NON_FINITE or LIMIT for a
+    // Finds likewise vertices and faces that may meet on their straight way from the previous positions,
+    // those without data standing still, to the present ones. Throws MeshError with NON_FINITE or LIMIT for a
     // previous position.
     void find_meeting(const StepScene& scene, std::span<const Positions> previous, NearFacesVisitor& visitor);
 

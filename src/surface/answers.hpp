@@ -42,7 +42,8 @@ struct SharedLeast {
     std::atomic<double> number = 0;
 };
 
-// Of one kind, in the order of features and partners. `lives` while the caller may have a view of them.
+// Answers to one question, in the order of features and partners. `lives` while the caller may have a view of
+// them.
 template <class T>
 struct Answers {
     explicit Answers(std::pmr::memory_resource* memory) noexcept : all(memory), gathered(memory) {}

@@ -167,7 +167,8 @@ void PairSearch::cull_found(const Task& task, const TileSearch& tile, Worker& wo
     worker.count = static_cast<std::size_t>(end - found.begin());
 }
 
-// As long as `count`. What was there is lost where there is no room, and else need not be set to 0 again.
+// Makes it as long as `count`. What was there is lost where there is no room, and else need not be set to 0
+// again.
 void make_room(Array<std::uint32_t>& vector, std::uint64_t count) {
     if (count > vector.capacity()) {
         vector.clear();

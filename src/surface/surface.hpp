@@ -61,9 +61,9 @@ public:
     std::span<const vox_proximity> proximities(vox_feature a, vox_feature b, double distance);
     // Throws as vox_surface_find_clearances.
     void clearances(double max_distance, double* out_distances);
-    // Of two kinds; lives until the next call or move().
+    // Those of two kinds; they live until the next call or move().
     std::span<const vox_impact> impacts(vox_feature a, vox_feature b, const vox::ContactTimeRule& rule);
-    // Of the end of the motion. Lives until the next call or move().
+    // Those at the end of the motion. They live until the next call or move().
     std::span<const vox_crossing> crossings();
 
     vox_counter_view counters() const;
@@ -78,7 +78,8 @@ private:
     template <class T, class Add>
     std::span<const T> answer_all(vox::Answers<T>& answers, const vox::SurfaceMotion& motion, vox_feature a,
                                   vox_feature b, Add&& add);
-    // Of answers that have ended, of which the memory is kept for the next ones. Whether there were any.
+    // Gives back the memory of answers that have ended, kept for the next ones. Returns whether there was
+    // any.
     bool release_ended() noexcept;
 
     vox::MemoryShare share_; // first, as all else is released to it
