@@ -40,13 +40,13 @@ struct Counters {
     // Pairs that began and ended in all steps since the grid was created or loaded.
     std::uint64_t total_touches_began = 0;
     std::uint64_t total_touches_ended = 0;
-    std::uint64_t edge_contacts = 0;         // 0 without VOX_GRID_EDGES, as are the next two
-    std::uint64_t carried_edge_contacts = 0; // part of `edge_contacts` carried over from the step before
-    std::uint64_t edge_candidates = 0;       // edges and faces whose boxes overlap
-    std::uint64_t proximities = 0;           // 0 without a margin (vox_grid_set_margin), as is the next one
-    std::uint64_t carried_proximities = 0;   // part of `proximities` carried over from the step before
-    std::uint64_t constraints = 0;           // that were found last; 0 where none were looked for
-    std::uint64_t passages = 0; // 0 without previous positions (vox_mesh_bind_previous_positions)
+    std::uint64_t edges = 0;               // 0 without VOX_GRID_EDGES, as are the next two
+    std::uint64_t carried_edges = 0;       // part of `edges` carried over from the step before
+    std::uint64_t edge_candidates = 0;     // edges and faces whose boxes overlap
+    std::uint64_t proximities = 0;         // 0 without a margin (vox_grid_set_margin), as is the next one
+    std::uint64_t carried_proximities = 0; // part of `proximities` carried over from the step before
+    std::uint64_t constraints = 0;         // that were found last; 0 where none were looked for
+    std::uint64_t impacts = 0;             // 0 without previous positions (vox_mesh_bind_previous_positions)
 };
 
 // Nanoseconds. stream_ns to decide_ns are the stages of the fast engine, and bin_ns, broad_ns and narrow_ns
@@ -66,8 +66,8 @@ struct Profile {
     std::uint64_t windows_ns = 0;     // bin the vertices that lie there
     std::uint64_t lookup_ns = 0;      // tetrahedra against these: box tests, and all that floats can decide
     std::uint64_t decide_ns = 0;      // decide the rest exactly; of the worker that took longest over it
-    std::uint64_t edges_ns = 0;       // edge contacts, with either engine
-    std::uint64_t margin_ns = 0;      // margin contacts and passages, with either engine
+    std::uint64_t edges_ns = 0;       // edges through faces, with either engine
+    std::uint64_t margin_ns = 0;      // proximities and impacts, with either engine
 };
 
 // A name and its field, in the order of vox_counter_view.
@@ -105,13 +105,13 @@ inline constexpr NamedCounter named_counters[] = {
     {"unknown_penetrations", &Counters::unknown_penetrations},
     {"carried_penetrations", &Counters::carried_penetrations},
     {"bodies_without_tets", &Counters::bodies_without_tets},
-    {"edge_contacts", &Counters::edge_contacts},
-    {"carried_edge_contacts", &Counters::carried_edge_contacts},
+    {"edge_contacts", &Counters::edges},
+    {"carried_edge_contacts", &Counters::carried_edges},
     {"edge_candidates", &Counters::edge_candidates},
     {"proximities", &Counters::proximities},
     {"carried_proximities", &Counters::carried_proximities},
     {"constraints", &Counters::constraints},
-    {"passages", &Counters::passages},
+    {"passages", &Counters::impacts},
 };
 inline constexpr NamedTime named_times[] = {
     {"step_ns", &Profile::step_ns},

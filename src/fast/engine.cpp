@@ -111,6 +111,14 @@ void FastEngine::count(Counters& counters) {
         static_cast<std::uint64_t>(std::unique(degenerate_.begin(), degenerate_.end()) - degenerate_.begin());
 }
 
+void FastEngine::fill(StepScene& scene) const noexcept {
+    scene.of = step_.of;
+    scene.boxes = &boxes_;
+    scene.pairs = broad_phase_.pairs;
+    scene.certified_cells = windows_.certified;
+    scene.origin = step_.origin;
+}
+
 bool FastEngine::cleared(std::size_t body, std::uint32_t vertices) const noexcept {
     if (body >= windows_.of.size()) return false; // also where the last step failed before its windows
     const fast::BodyWindow& window = windows_.of[body];

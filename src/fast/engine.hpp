@@ -11,6 +11,7 @@
 #include "fast/lookup.hpp"
 #include "fast/mesh_state.hpp"
 #include "fast/step.hpp"
+#include "fast/step_scene.hpp"
 #include "fast/stream.hpp"
 #include "fast/windows.hpp"
 
@@ -30,7 +31,7 @@ struct FastSettings {
     // hits the caller has. For the same engine and states of meshes as in the last step, meshes that are new
     // or gone excepted, and not after a step that failed.
     bool carry = false;
-    bool keep_certified = false; // for certified()
+    bool keep_certified = false; // for StepScene::certified()
 };
 
 // The engine's buffers live here from step to step, so that the steady state allocates nothing.
@@ -65,12 +66,8 @@ public:
     // it costs next to nothing. The body has so many vertices.
     bool cleared(std::size_t body, std::uint32_t vertices) const noexcept;
 
-    // Where winding numbers showed, in the last step, that a body does not overlap itself; null where they
-    // showed nothing or were not to be kept (FastSettings::keep_certified).
-    const fast::CertifiedCells* certified(std::size_t body) const noexcept {
-        const auto& all = windows_.certified;
-        return body < all.size() && !all[body].certified.empty() ? &all[body] : nullptr;
-    }
+    // Sets what the last step found, good until the next one.
+    void fill(StepScene& scene) const noexcept;
 
     // The cell size of the last window of the last step that had one; 0 before.
     double cell_size() const noexcept { return cell_size_; }

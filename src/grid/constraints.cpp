@@ -26,12 +26,6 @@ void write_vector(double (&out)[3], const Vec3d& v) noexcept {
     out[2] = v.z + 0.0;
 }
 
-// What contacts of a vertex are sorted by, whatever their kind.
-template <class Contact>
-auto place_of(const Contact& contact) noexcept {
-    return std::tuple(contact.body_a, contact.vertex, contact.body_b);
-}
-
 std::uint32_t body_index(std::span<const Body> bodies, vox_body id) noexcept {
     return static_cast<std::uint32_t>(std::ranges::lower_bound(bodies, id, {}, &Body::mesh_id) -
                                       bodies.begin());
@@ -48,10 +42,11 @@ void write_pair(const Body& a, const Body& b, vox_constraint_kind kind, std::uin
 }
 
 // When a vertex inside met the surface; 1 if that is not known.
-double time_of(std::span<const Passage> passages, vox_body a, std::uint32_t vertex, vox_body b) noexcept {
+double time_of(std::span<const SurfaceMeeting> meetings, vox_body a, std::uint32_t vertex,
+               vox_body b) noexcept {
     const std::tuple sought(a, vertex, b);
-    const auto at = std::ranges::lower_bound(passages, sought, {}, place_of<Passage>);
-    return at != passages.end() && place_of(*at) == sought ? at->time : 1;
+    const auto at = std::ranges::lower_bound(meetings, sought, {}, place_of<SurfaceMeeting>);
+    return at != meetings.end() && place_of(*at) == sought ? at->time : 1;
 }
 
 // The closest triangle in place of the tetrahedron: corners, the lowest first and counter-clockwise as seen
@@ -286,7 +281,7 @@ struct Writer {
         std::copy_n(depth.direction, 3, c.normal);
     }
 
-    // The vertex of a passage or a margin contact, and its face.
+    // The vertex of an impact or a proximity, and its face.
     template <class Contact>
     void write_face(const Contact& contact, const double (&weights)[3], vox_constraint& c) const {
         c.count_a = 1;
@@ -298,7 +293,7 @@ struct Writer {
     }
 
     void write_proximity(std::uint32_t source, vox_constraint& c) const {
-        const MarginContact& contact = from.proximities[source];
+        const Proximity& contact = from.proximities[source];
         write_face(contact, contact.face_weights, c);
         c.gap = contact.distance;
         c.state = contact.distance > 0 ? VOX_DEPTH_CLOSEST : VOX_DEPTH_TOUCHING;
@@ -383,7 +378,7 @@ bool Constraints::carry_inside(const ConstraintSources& from, const Run& run,
         c = last_.all[same];
         c.pair = run.pair;
         c.previous = static_cast<std::uint32_t>(same);
-        c.time = time_of(from.passages, c.body_a, c.vertices[0], c.body_b);
+        c.time = time_of(from.meetings, c.body_a, c.vertices[0], c.body_b);
     }
     return true;
 }
@@ -460,7 +455,7 @@ void Constraints::write_inside(const ConstraintSources& from, const Run& run, Pr
             c.element_b = hit.tet;
             const Vec3d p{block.point[0][i], block.point[1][i], block.point[2][i]};
             write_vector(c.position, p);
-            c.time = from.passages.empty() ? 1 : time_of(from.passages, a.mesh_id, hit.vertex, b.mesh_id);
+            c.time = from.meetings.empty() ? 1 : time_of(from.meetings, a.mesh_id, hit.vertex, b.mesh_id);
             c.previous = previous.find(VOX_CONSTRAINT_INSIDE, {a.mesh_id, {hit.vertex, 0, 0, 0, 0}});
             c.reserved = 0;
             c.state = VOX_DEPTH_UNKNOWN;

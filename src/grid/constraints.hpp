@@ -6,8 +6,8 @@
 #include "depth/penetrations.hpp"
 #include "grid/contact_pairs.hpp"
 #include "grid/edge_contacts.hpp"
-#include "grid/margin_contacts.hpp"
-#include "grid/passages.hpp"
+#include "grid/impacts.hpp"
+#include "grid/proximities.hpp"
 #include "mesh/topology.hpp"
 
 #include <vox/vox.h>
@@ -38,8 +38,8 @@ struct ConstraintSources {
     std::uint64_t closest_budget;
     std::span<const EdgeContact> edges;
     std::span<const Depth> edge_depths; // of each, or none
-    std::span<const MarginContact> proximities;
-    std::span<const Passage> passages;
+    std::span<const Proximity> proximities;
+    std::span<const SurfaceMeeting> meetings;
     std::span<const Impact> impacts;
 };
 

@@ -38,7 +38,7 @@ struct IdPair {
     auto operator<=>(const IdPair&) const = default;
 };
 
-// Throws Error(LIMIT) where a step has more than VOX_MAX_CONTACTS of `what`, e.g. "edge contacts".
+// Throws Error(LIMIT) where a step has more than VOX_MAX_CONTACTS of `what`, e.g. "edges".
 void check_contact_count(std::size_t count, const char* what);
 
 // Adds those of `more`, which ascend, that `pairs` lacks, without contacts and user data.

@@ -11,7 +11,6 @@
 #include "exact/crossing.hpp"
 #include "exact/facet_normal.hpp"
 #include "exact/predicates.hpp"
-#include "fast/engine.hpp"
 #include "mesh/filter.hpp"
 
 #include <algorithm>
@@ -23,33 +22,16 @@ namespace vox {
 
 namespace {
 
-constexpr std::uint32_t group_size = 32; // tiles whose common box is tested first
-
-// How much work is worth a task of its own.
-constexpr std::size_t task_tiles = 128;  // whose boxes are made: 40 vertices each
-constexpr std::size_t task_pairs = 16;   // of small bodies
-constexpr std::size_t task_searches = 8; // of tiles against all of the other body
-
-// The tiles of a small body take no task.
-constexpr std::size_t small_body = 64;
-
-// A vertex of packed positions.
-Box box_at(const float* positions, std::uint32_t vertex) {
-    const float* p = positions + 3 * std::size_t{vertex};
-    return {{p[0], p[1], p[2], 0}, {p[0], p[1], p[2], 0}};
-}
-
 // Where a body certainly has no edge contact with itself; null for a pair of two, and where nothing is known.
-const fast::CertifiedCells* certified_for(const EdgeScene& scene, const fast::Pair& pair) {
-    return pair.a == pair.b && scene.engine ? scene.engine->certified(pair.a) : nullptr;
+const fast::CertifiedCells* certified_for(const StepScene& scene, const fast::Pair& pair) {
+    return pair.a == pair.b ? scene.certified(pair.a) : nullptr;
 }
 
 } // namespace
 
 EdgeContacts::EdgeContacts(std::pmr::memory_resource* memory)
-    : surfaces_(memory), pair_buffers_(memory), body_boxes_(memory), packed_(memory), first_packed_(memory),
-      pairs_of_bodies_(memory), step_surfaces_(memory), pieces_(memory), tile_boxes_(memory),
-      workers_(memory), found_(memory), keys_(memory), contacts_(memory), pairs_(memory), depths_(memory) {}
+    : pairs_of_bodies_(memory), bodies_(memory), workers_(memory), found_(memory), keys_(memory),
+      contacts_(memory), pairs_(memory), depths_(memory) {}
 
 void EdgeContacts::clear() noexcept {
     contacts_.clear();
@@ -57,11 +39,7 @@ void EdgeContacts::clear() noexcept {
     unchanged_ = false;
 }
 
-void EdgeContacts::forget(vox_body mesh) noexcept {
-    erase_if(surfaces_, [mesh](const Surface& surface) { return surface.mesh == mesh; });
-}
-
-void EdgeContacts::find(const EdgeScene& scene, Counters& counters) {
+void EdgeContacts::find(const StepScene& scene, KeptFeatures& kept) {
     workers_.grow(scene.workers->count());
     for (Worker& worker : workers_) {
         worker.candidates = worker.exact_tests = 0;
@@ -69,21 +47,30 @@ void EdgeContacts::find(const EdgeScene& scene, Counters& counters) {
         for (LoadedTile& tile : worker.loaded) tile.body = ~0u; // that of another step
     }
     found_.clear();
-    carry(scene);
-    const std::size_t carried = found_.size();
+    scene.carry(std::span<const EdgeContact>(contacts_), [&](const EdgeContact& contact) {
+        reserve_sparingly(found_, found_.size() + 1);
+        found_.push_back(contact);
+    });
+    carried_ = found_.size();
     list_pairs(scene);
-    prepare_surfaces(scene);
-    make_tile_boxes(scene);
-    search_pairs(scene);
+    bodies_.make_boxes(scene, kept);
+    join_pairs(
+        std::span<const fast::Pair>(pairs_of_bodies_), workers_, *scene.workers,
+        [&](const fast::Pair& pair) { return bodies_[pair.a].tile_count(); },
+        [&](const fast::Pair& pair, Worker& tiles) { return list_tiles(scene, pair, tiles); },
+        [&](const fast::Pair& pair, const Worker& tiles, std::size_t begin, std::size_t end,
+            std::uint32_t w) { search(scene, pair, tiles, begin, end, workers_[w]); });
     workers_.level();
 
-    unchanged_ = found_.size() == carried && carried == contacts_.size();
-    if (!unchanged_) {
-        put_in_order();
-        vox::list_pairs(std::span<const EdgeContact>(contacts_), pairs_);
-    }
-    counters.edge_contacts = contacts_.size();
-    counters.carried_edge_contacts = carried;
+    unchanged_ = found_.size() == carried_ && carried_ == contacts_.size();
+    if (unchanged_) return;
+    put_in_order();
+    vox::list_pairs(std::span<const EdgeContact>(contacts_), pairs_);
+}
+
+void EdgeContacts::count(Counters& counters) {
+    counters.edges = contacts_.size();
+    counters.carried_edges = carried_;
     for (const Worker& worker : workers_) {
         counters.edge_candidates += worker.candidates;
         counters.exact_tests += worker.exact_tests;
@@ -92,325 +79,141 @@ void EdgeContacts::find(const EdgeScene& scene, Counters& counters) {
 
 // ---- which bodies ---------------------------------------------------------------------------------
 
-// Those of the last step between bodies that have not moved since.
-void EdgeContacts::carry(const EdgeScene& scene) {
-    if (!scene.engine) return;
-    const auto rests = [&](vox_body mesh) {
-        const auto body = std::lower_bound(scene.bodies.begin(), scene.bodies.end(), mesh,
-                                           [](const Body& b, vox_body id) { return b.mesh_id < id; });
-        return body != scene.bodies.end() && body->mesh_id == mesh &&
-               !scene.engine->moved(static_cast<std::size_t>(body - scene.bodies.begin()));
-    };
-    IdPair last{};
-    bool last_rests = false;
-    for (const EdgeContact& contact : contacts_) {
-        const IdPair pair{contact.body_a, contact.body_b};
-        if (pair != last) last_rests = rests(pair.body_a) && rests(pair.body_b);
-        last = pair;
-        if (!last_rests) continue;
-        reserve_sparingly(found_, found_.size() + 1);
-        found_.push_back(contact);
-    }
-}
-
 // Pairs of bodies with surfaces whose boxes overlap, that the filters let collide, and of which one moved.
-void EdgeContacts::list_pairs(const EdgeScene& scene) {
+void EdgeContacts::list_pairs(const StepScene& scene) {
     const auto has_surface = [&](std::uint32_t body) { return !scene.topologies[body]->triangles.empty(); };
-    const auto bodies = static_cast<std::uint32_t>(scene.bodies.size());
     pairs_of_bodies_.clear();
-    if (scene.engine) {
-        for (const fast::Pair& pair : scene.engine->broad_phase().pairs)
-            if (pair.a < pair.b && has_surface(pair.a) && has_surface(pair.b))
-                pairs_of_bodies_.push_back(pair);
-    } else {
-        pack_positions(scene);
-        fast::find_pairs(body_boxes_, {scene.bodies, {}}, pair_buffers_, pairs_of_bodies_);
-        erase_if(pairs_of_bodies_, [](const fast::Pair& pair) { return pair.a > pair.b; });
+    for (const fast::Pair& pair : scene.pairs)
+        if (pair.a < pair.b && has_surface(pair.a) && has_surface(pair.b)) pairs_of_bodies_.push_back(pair);
+    for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
+        if (!scene.bodies[b].self_collision || !has_surface(b) || !scene.of[b].moved) continue;
+        const fast::CertifiedCells* const certified = scene.certified(b);
+        if (!certified || !certified->complete) pairs_of_bodies_.push_back({b, b});
     }
-    for (std::uint32_t b = 0; b < bodies; ++b)
-        if (scene.bodies[b].self_collision && has_surface(b) && (!scene.engine || scene.engine->moved(b))) {
-            const fast::CertifiedCells* const certified = certified_for(scene, {b, b});
-            if (!certified || !certified->complete) pairs_of_bodies_.push_back({b, b});
-        }
-}
-
-// Positions of bodies with surfaces as floats, one after the other, and the boxes around the surfaces.
-void EdgeContacts::pack_positions(const EdgeScene& scene) {
-    first_packed_.assign(scene.bodies.size(), 0);
-    body_boxes_.assign(scene.bodies.size(), empty_box);
-    std::size_t room = 0;
-    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-        if (!scene.topologies[b]->triangles.empty()) {
-            first_packed_[b] = room;
-            room += 3 * std::size_t{scene.bodies[b].vertex_count};
-        }
-    packed_.resize(room);
-    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-        if (scene.topologies[b]->triangles.empty()) continue;
-        float* to = packed_.data() + first_packed_[b];
-        for (std::uint32_t v = 0; v < scene.bodies[b].vertex_count; ++v) {
-            const Vec3f p = scene.bodies[b].positions[v];
-            to[3 * std::size_t{v}] = p.x;
-            to[3 * std::size_t{v} + 1] = p.y;
-            to[3 * std::size_t{v} + 2] = p.z;
-        }
-        for (const Triangle& triangle : scene.topologies[b]->triangles)
-            for (const std::uint32_t vertex : triangle.v) add(body_boxes_[b], box_at(to, vertex));
-    }
-}
-
-const Box& EdgeContacts::box_of(const EdgeScene& scene, std::uint32_t body) const {
-    return scene.engine ? scene.engine->boxes().bodies[body] : body_boxes_[body];
-}
-
-const SurfaceFeatures& EdgeContacts::surface_of(const EdgeScene& scene, std::uint32_t body) {
-    const vox_body mesh = scene.bodies[body].mesh_id;
-    auto place = std::lower_bound(surfaces_.begin(), surfaces_.end(), mesh,
-                                  [](const Surface& surface, vox_body id) { return surface.mesh < id; });
-    if (place == surfaces_.end() || place->mesh != mesh || place->version != scene.versions[body]) {
-        Surface made(mesh, scene.versions[body], memory());
-        make_surface_features(*scene.topologies[body], scene.bodies[body].positions,
-                              scene.engine ? scene.engine->last_step().of[body].tiles : nullptr,
-                              made.features);
-        if (place == surfaces_.end() || place->mesh != mesh)
-            place = surfaces_.insert(place, std::move(made));
-        else
-            *place = std::move(made);
-    }
-    return place->features;
-}
-
-// What is known of bodies in pairs, room for the boxes of their tiles, and the pieces of work to make them.
-void EdgeContacts::prepare_surfaces(const EdgeScene& scene) {
-    step_surfaces_.assign(scene.bodies.size(), {nullptr, 0, {}, nullptr, empty_box, empty_box});
+    bodies_.begin(scene);
     for (const fast::Pair& pair : pairs_of_bodies_) {
-        Box common = box_of(scene, pair.a);
-        intersect(common, box_of(scene, pair.b));
-        for (const std::uint32_t body : {pair.a, pair.b}) {
-            (void)surface_of(scene, body); // which may move those of others
-            add(step_surfaces_[body].reached, common);
-        }
-    }
-    pieces_.clear();
-    std::size_t tiles = 0;
-    for (const fast::Pair& pair : pairs_of_bodies_)
-        for (const std::uint32_t body : {pair.a, pair.b}) {
-            StepSurface& surface = step_surfaces_[body];
-            if (surface.features) continue;
-            surface.features = &surface_of(scene, body);
-            surface.first_tile = static_cast<std::uint32_t>(tiles);
-            const auto count = static_cast<std::uint32_t>(surface.features->tiles.size());
-            for (std::uint32_t first = 0; first < count; first += small_body)
-                pieces_.push_back({body, first, std::min<std::uint32_t>(first + small_body, count)});
-            tiles += count;
-            if (scene.engine) {
-                const fast::StepBody& of = scene.engine->last_step().of[body];
-                surface.positions = of.positions;
-                surface.blocks = {scene.engine->boxes().blocks.data() + of.first_block,
-                                  scene.engine->boxes().groups.data() + of.first_group};
-            } else {
-                surface.positions = packed_.data() + first_packed_[body];
-            }
-        }
-    if (tile_boxes_.size() < tiles) tile_boxes_.resize(tiles);
-}
-
-void EdgeContacts::make_tile_boxes(const EdgeScene& scene) {
-    scene.workers->for_ranges(
-        pieces_.size(), task_tiles / small_body, [&](std::size_t begin, std::size_t end, std::uint32_t) {
-            for (std::size_t i = begin; i < end; ++i) {
-                const TilePiece& piece = pieces_[i];
-                const StepSurface& surface = step_surfaces_[piece.body];
-                const auto box_of = [&](const SurfaceTile& tile) {
-                    Box box = empty_box;
-                    const std::uint32_t* vertices = surface.features->vertices.data() + tile.first_vertex;
-                    for (std::uint32_t v = 0; v < tile.vertex_count; ++v)
-                        add(box, box_at(surface.positions, vertices[v]));
-                    return box;
-                };
-                make_boxes_in(surface.reached, *surface.features, surface.blocks, piece.first, piece.last,
-                              &tile_boxes_[surface.first_tile + piece.first], box_of);
-            }
-        });
-    for (const TilePiece& piece : pieces_) {
-        StepSurface& surface = step_surfaces_[piece.body];
-        for (std::uint32_t t = piece.first; t < piece.last; ++t)
-            if (const Box& box = tile_boxes_[surface.first_tile + t]; box.lo[0] <= box.hi[0])
-                add(surface.box, box);
+        Box common = bodies_[pair.a].box;
+        intersect(common, bodies_[pair.b].box);
+        bodies_.reach(pair.a, common);
+        bodies_.reach(pair.b, common);
     }
 }
 
 // ---- which edges and faces ------------------------------------------------------------------------
 
-// Workers share pairs of small bodies, and then the tiles of each pair of large ones.
-void EdgeContacts::search_pairs(const EdgeScene& scene) {
-    const auto is_large = [&](const fast::Pair& pair) {
-        return step_surfaces_[pair.a].features->tiles.size() >= small_body;
-    };
-    scene.workers->for_ranges(
-        pairs_of_bodies_.size(), task_pairs, [&](std::size_t begin, std::size_t end, std::uint32_t w) {
-            for (std::size_t i = begin; i < end; ++i) {
-                const fast::Pair& pair = pairs_of_bodies_[i];
-                if (!is_large(pair) && list_tiles(scene, pair, workers_[w]))
-                    search(scene, pair, workers_[w], 0, workers_[w].tiles_a.size(), workers_[w]);
-            }
-        });
-    for (const fast::Pair& pair : pairs_of_bodies_) {
-        const Worker& tiles = workers_[0];
-        if (!is_large(pair) || !list_tiles(scene, pair, workers_[0])) continue;
-        scene.workers->for_ranges(tiles.tiles_a.size(), task_searches,
-                                  [&](std::size_t begin, std::size_t end, std::uint32_t w) {
-                                      search(scene, pair, tiles, begin, end, workers_[w]);
-                                  });
-    }
-}
-
 // The tiles of the two that meet where the boxes of the two overlap. Of a body with itself, those that are
 // not certified.
-bool EdgeContacts::list_tiles(const EdgeScene& scene, const fast::Pair& pair, Worker& worker) const {
-    const StepSurface &a = step_surfaces_[pair.a], &b = step_surfaces_[pair.b];
-    Box region = a.box;
-    intersect(region, b.box);
-    const auto list = [&](const StepSurface& surface, Array<std::uint32_t>& tiles) {
-        tiles.clear();
-        const auto count = static_cast<std::uint32_t>(surface.features->tiles.size());
-        for (std::uint32_t first = 0; first < count; first += fast::most_boxes) {
-            std::uint64_t met = fast::find_overlaps(&tile_boxes_[surface.first_tile + first],
-                                                    std::min(fast::most_boxes, count - first), region);
-            for (; met; met &= met - 1)
-                tiles.push_back(first + static_cast<std::uint32_t>(std::countr_zero(met)));
-        }
-        if (const fast::CertifiedCells* certified = certified_for(scene, pair))
-            erase_if(tiles, [&](std::uint32_t tile) {
-                return certified->holds(tile_boxes_[surface.first_tile + tile]);
-            });
+std::size_t EdgeContacts::list_tiles(const StepScene& scene, const fast::Pair& pair, Worker& worker) const {
+    Box region = bodies_[pair.a].tiles_box;
+    intersect(region, bodies_[pair.b].tiles_box);
+    const fast::CertifiedCells* const certified = certified_for(scene, pair);
+    const auto list = [&](std::uint32_t body, Array<std::uint32_t>& tiles) {
+        const Box* const boxes = bodies_.tile_boxes(body);
+        list_overlaps(boxes, bodies_[body].tile_count(), region, tiles);
+        if (certified) erase_if(tiles, [&](std::uint32_t tile) { return certified->holds(boxes[tile]); });
         return !tiles.empty();
     };
-    if (is_empty(region) || !list(a, worker.tiles_a) || !list(b, worker.tiles_b)) return false;
+    if (is_empty(region) || !list(pair.a, worker.tiles_a) || !list(pair.b, worker.tiles_b)) return 0;
     worker.boxes_b.clear();
-    worker.groups_b.clear();
-    for (std::size_t i = 0; i < worker.tiles_b.size(); ++i) {
-        const Box& box = tile_boxes_[b.first_tile + worker.tiles_b[i]];
-        if (i % group_size == 0) worker.groups_b.push_back(empty_box);
-        add(worker.groups_b.back(), box);
-        worker.boxes_b.push_back(box);
-    }
-    return true;
+    for (const std::uint32_t tile : worker.tiles_b)
+        worker.boxes_b.push_back(bodies_.tile_boxes(pair.b)[tile]);
+    return worker.tiles_a.size();
 }
 
 // The tiles [begin, end) of tiles.tiles_a against all of tiles.tiles_b, edges of either with faces of the
 // other. Of a body with itself, each two tiles once.
-void EdgeContacts::search(const EdgeScene& scene, const fast::Pair& pair, const Worker& tiles,
+void EdgeContacts::search(const StepScene& scene, const fast::Pair& pair, const Worker& tiles,
                           std::size_t begin, std::size_t end, Worker& worker) {
     const fast::CertifiedCells* const certified = certified_for(scene, pair);
+    const bool is_self = pair.a == pair.b; // the lists are the same
     LoadedTile& a = worker.loaded[Worker::most_loaded];
     for (std::size_t i = begin; i < end; ++i) {
-        const Box& box = tile_boxes_[step_surfaces_[pair.a].first_tile + tiles.tiles_a[i]];
+        const Box& box = bodies_.tile_boxes(pair.a)[tiles.tiles_a[i]];
         bool is_loaded = false;
-        for (std::size_t group = 0; group < tiles.groups_b.size(); ++group) {
-            if (!overlap(tiles.groups_b[group], box)) continue;
-            const std::size_t first = group * group_size;
-            const auto count =
-                static_cast<std::uint32_t>(std::min<std::size_t>(group_size, tiles.tiles_b.size() - first));
-            std::uint64_t met = fast::find_overlaps(&tiles.boxes_b[first], count, box);
-            for (; met; met &= met - 1) {
-                const std::size_t j = first + static_cast<std::size_t>(std::countr_zero(met));
-                if (pair.a == pair.b && j < i) continue; // the lists are the same
-                if (certified) {
-                    Box common = box;
-                    intersect(common, tiles.boxes_b[j]);
-                    if (certified->holds(common)) continue;
-                }
-                if (!is_loaded) load(pair.a, tiles.tiles_a[i], a);
-                is_loaded = true;
-                if (pair.a == pair.b && j == i) {
-                    test(scene, a, a, worker);
-                    continue;
-                }
-                LoadedTile& b = worker.loaded[(pair.b + tiles.tiles_b[j]) % Worker::most_loaded];
-                if (b.body != pair.b || b.index != tiles.tiles_b[j]) load(pair.b, tiles.tiles_b[j], b);
-                test(scene, a, b, worker);
-                test(scene, b, a, worker);
+        tiles.boxes_b.for_overlaps(box, [&](std::size_t j) {
+            if (is_self && j < i) return;
+            if (certified) {
+                Box common = box;
+                intersect(common, tiles.boxes_b.boxes[j]);
+                if (certified->holds(common)) return;
             }
-        }
+            if (!is_loaded) load(pair.a, tiles.tiles_a[i], a);
+            is_loaded = true;
+            if (is_self && j == i) return test(scene, a, a, worker);
+            LoadedTile& b = worker.loaded[(pair.b + tiles.tiles_b[j]) % Worker::most_loaded];
+            if (b.body != pair.b || b.index != tiles.tiles_b[j]) load(pair.b, tiles.tiles_b[j], b);
+            test(scene, a, b, worker);
+            test(scene, b, a, worker);
+        });
     }
 }
 
 void EdgeContacts::load(std::uint32_t body, std::uint32_t index, LoadedTile& out) const {
-    const StepSurface& surface = step_surfaces_[body];
-    const SurfaceFeatures& features = *surface.features;
-    const SurfaceTile& tile = features.tiles[index];
-    std::array<Box, SurfaceTile::most_vertices> points;
-    for (std::uint32_t v = 0; v < tile.vertex_count; ++v)
-        points[v] = box_at(surface.positions, features.vertices[tile.first_vertex + v]);
     out.body = body;
     out.index = index;
-    out.tile = &tile;
+    out.features = bodies_[body].features;
+    out.tile = &out.features->tiles[index];
+    out.vertices = &out.features->vertices[out.tile->first_vertex];
+    out.corners = &out.features->faces[out.tile->first_face];
+    out.ends = out.features->edges.data() + out.tile->first_edge;
     out.has_points = false;
     out.has_plane = 0;
-    out.box = tile_boxes_[surface.first_tile + index];
-    for (std::uint32_t f = 0; f < tile.face_count; ++f) {
-        const auto& [u, v, w] = features.faces[tile.first_face + f];
-        Box box = points[u];
-        add(box, points[v]);
-        add(box, points[w]);
-        out.faces.set(f, box);
-    }
-    for (std::uint32_t e = 0; e < tile.edge_count; ++e) {
-        const auto& [u, v] = features.edges[tile.first_edge + e];
-        Box box = points[u];
-        add(box, points[v]);
-        out.edges.set(e, box);
+    out.box = bodies_.tile_boxes(body)[index];
+    TilePoints points;
+    load_points(bodies_[body], *out.tile, points);
+    load_faces(*out.features, *out.tile, points, 0, out.faces);
+    for (std::uint32_t e = 0; e < out.tile->edge_count; ++e) {
+        const auto& [u, v] = out.ends[e];
+        out.edges[e] = points[u];
+        add(out.edges[e], points[v]);
     }
 }
 
-void EdgeContacts::make_points(const EdgeScene& scene, LoadedTile& tile) const {
-    if (tile.has_points) return;
-    const Positions& positions = scene.bodies[tile.body].positions;
-    const std::uint32_t* vertices =
-        step_surfaces_[tile.body].features->vertices.data() + tile.tile->first_vertex;
-    for (std::uint32_t v = 0; v < tile.tile->vertex_count; ++v) tile.points[v] = positions.exact(vertices[v]);
-    tile.has_points = true;
-}
-
-const TrianglePlane& EdgeContacts::plane_of(LoadedTile& tile, std::size_t face) const {
-    if (!(tile.has_plane >> face & 1)) {
-        const auto& [u, v, w] = step_surfaces_[tile.body].features->faces[tile.tile->first_face + face];
-        tile.planes[face] = {tile.points[u], tile.points[v], tile.points[w]};
-        tile.has_plane |= std::uint64_t{1} << face;
+void EdgeContacts::test(const StepScene& scene, LoadedTile& edges, LoadedTile& faces, Worker& worker) {
+    // Edges in the box of the faces, and the faces whose boxes these overlap, as bits.
+    std::array<std::uint32_t, SurfaceTile::most_edges> near, met;
+    std::array<Box, SurfaceTile::most_edges> boxes;
+    std::uint32_t count = 0;
+    for (std::uint32_t first = 0; first < edges.tile->edge_count; first += fast::most_boxes) {
+        const std::uint32_t some = std::min<std::uint32_t>(edges.tile->edge_count - first, fast::most_boxes);
+        for (std::uint64_t bits = fast::find_overlaps(&edges.edges[first], some, faces.box); bits;
+             bits &= bits - 1) {
+            near[count] = first + static_cast<std::uint32_t>(std::countr_zero(bits));
+            boxes[count] = edges.edges[near[count]];
+            ++count;
+        }
     }
-    return tile.planes[face];
-}
-
-void EdgeContacts::test(const EdgeScene& scene, LoadedTile& edges, LoadedTile& faces, Worker& worker) {
-    std::array<EdgeFaces, SurfaceTile::most_edges> near;
-    const std::uint32_t count = find_edge_faces(edges.edges, edges.tile->edge_count, edges.box, faces.faces,
-                                                faces.tile->face_count, near.data());
     if (count == 0) return;
+    find_faces(boxes.data(), count, faces.faces, faces.tile->face_count, met.data());
+    if (std::all_of(met.begin(), met.begin() + count, [](std::uint32_t bits) { return bits == 0; })) return;
+    for (LoadedTile* tile : {&edges, &faces}) {
+        if (!tile->has_points)
+            load_positions(scene.bodies[tile->body].positions, *tile->features, *tile->tile,
+                           tile->points.data());
+        tile->has_points = true;
+    }
     const bool is_self = edges.body == faces.body;
-    const SurfaceFeatures& features = *step_surfaces_[faces.body].features;
-    const std::uint32_t* corners = features.vertices.data() + faces.tile->first_vertex;
-    const std::uint32_t* ends =
-        step_surfaces_[edges.body].features->vertices.data() + edges.tile->first_vertex;
-    make_points(scene, edges);
-    make_points(scene, faces);
-    for (const EdgeFaces& edge_faces : std::span(near).first(count)) {
-        const auto [edge, met] = edge_faces;
-        worker.candidates += static_cast<std::uint64_t>(std::popcount(met));
-        const auto& [u, v] = step_surfaces_[edges.body].features->edges[edges.tile->first_edge + edge];
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t edge = near[i];
+        worker.candidates += static_cast<std::uint64_t>(std::popcount(met[i]));
+        const auto& [u, v] = edges.ends[edge];
         const Vec3d &p = edges.points[u], &q = edges.points[v];
-        const std::uint32_t low = ends[u], high = ends[v];
-        for (std::uint32_t left = met; left; left &= left - 1) {
+        const std::uint32_t low = edges.vertices[u], high = edges.vertices[v];
+        for (std::uint32_t left = met[i]; left; left &= left - 1) {
             const auto face = static_cast<std::size_t>(std::countr_zero(left));
-            const auto& [a, b, c] = features.faces[faces.tile->first_face + face];
+            const auto& [a, b, c] = faces.corners[face];
             if (is_self) {
-                const std::uint32_t of_face[3] = {corners[a], corners[b], corners[c]};
-                if (std::count(of_face, of_face + 3, low) + std::count(of_face, of_face + 3, high) > 0) {
+                const std::uint32_t corners[3] = {faces.vertices[a], faces.vertices[b], faces.vertices[c]};
+                if (std::count(corners, corners + 3, low) + std::count(corners, corners + 3, high) > 0) {
                     --worker.candidates;
                     continue;
                 }
             }
-            if (plane_of(faces, face).has_on_one_side(p, q)) continue;
+            if (!(faces.has_plane >> face & 1)) {
+                faces.planes[face] = {faces.points[a], faces.points[b], faces.points[c]};
+                faces.has_plane |= std::uint64_t{1} << face;
+            }
+            if (faces.planes[face].has_on_one_side(p, q)) continue;
             if (!passes_beside(p, q, faces.points[a], faces.points[b], faces.points[c]))
                 decide(scene, edges, edge, faces, face, worker);
         }
@@ -419,10 +222,8 @@ void EdgeContacts::test(const EdgeScene& scene, LoadedTile& edges, LoadedTile& f
 
 // ---- contacts -------------------------------------------------------------------------------------
 
-void EdgeContacts::decide(const EdgeScene& scene, const LoadedTile& edges, std::size_t edge,
+void EdgeContacts::decide(const StepScene& scene, const LoadedTile& edges, std::size_t edge,
                           const LoadedTile& faces, std::size_t face, Worker& worker) {
-    const SurfaceFeatures& of_edge = *step_surfaces_[edges.body].features;
-    const SurfaceFeatures& of_face = *step_surfaces_[faces.body].features;
     // Vertices of the mesh, and of the tile.
     struct Corner {
         std::uint32_t vertex;
@@ -430,15 +231,11 @@ void EdgeContacts::decide(const EdgeScene& scene, const LoadedTile& edges, std::
 
         bool operator<(const Corner& other) const { return vertex < other.vertex; }
     };
-    const auto corner_of = [](const SurfaceFeatures& features, const SurfaceTile& tile, std::uint8_t local) {
-        return Corner{features.vertices[tile.first_vertex + local], local};
-    };
-    const std::size_t place = faces.tile->first_face + face;
     std::array<Corner, 2> ends;
     std::array<Corner, 3> corners;
-    for (std::size_t i = 0; i < 2; ++i)
-        ends[i] = corner_of(of_edge, *edges.tile, of_edge.edges[edges.tile->first_edge + edge][i]);
-    for (std::size_t i = 0; i < 3; ++i) corners[i] = corner_of(of_face, *faces.tile, of_face.faces[place][i]);
+    for (std::size_t i = 0; i < 2; ++i) ends[i] = {edges.vertices[edges.ends[edge][i]], edges.ends[edge][i]};
+    for (std::size_t i = 0; i < 3; ++i)
+        corners[i] = {faces.vertices[faces.corners[face][i]], faces.corners[face][i]};
     // In an order that does not depend on how the mesh was edited, nor do the bits of the weights then.
     std::sort(ends.begin(), ends.end());
     std::sort(corners.begin(), corners.end());
@@ -449,15 +246,16 @@ void EdgeContacts::decide(const EdgeScene& scene, const LoadedTile& edges, std::
                              faces.points[corners[2].local]};
     const Crossing found = find_crossing(p, q, corner[0], corner[1], corner[2], worker.exact_tests);
     if (found.kind == CrossingKind::none) return;
-    const std::uint32_t tet = of_face.tets[place];
-    if (const SelfFilter* filter = scene.bodies[faces.body].self_filter; edges.body == faces.body && filter) {
-        const Tet& behind = scene.bodies[faces.body].tets[tet];
+    const Body& body = scene.bodies[faces.body];
+    const std::size_t place = faces.tile->first_face + face;
+    const std::uint32_t tet = faces.features->tets[place];
+    const Tet& behind = body.tets[tet];
+    if (const SelfFilter* filter = body.self_filter; edges.body == faces.body && filter)
         if (filter->skips(low, behind) || filter->skips(high, behind)) return;
-    }
 
-    const std::uint32_t apex = scene.topologies[faces.body]->triangles[of_face.triangles[place]].apex;
-    int inside = orientation(corner[0], corner[1], corner[2], scene.bodies[faces.body].positions.exact(apex),
-                             worker.exact_tests);
+    int inside =
+        orientation(corner[0], corner[1], corner[2],
+                    body.positions.exact(behind.v[faces.features->facets[place]]), worker.exact_tests);
     if (inside == 0) inside = orientation(corner[0], corner[1], corner[2], p, worker.exact_tests);
     const std::size_t second = inside > 0 ? 2 : 1, third = 3 - second;
     Vec3d normal = normalised(cross(scaled(corner[second] - corner[0]), scaled(corner[third] - corner[0])));
@@ -465,7 +263,7 @@ void EdgeContacts::decide(const EdgeScene& scene, const LoadedTile& edges, std::
     const EdgeContact contact{
         .body_a = scene.bodies[edges.body].mesh_id,
         .edge = {low, high},
-        .body_b = scene.bodies[faces.body].mesh_id,
+        .body_b = body.mesh_id,
         .face = {v[0], v[second], v[third]},
         .tet = tet,
         .kind = found.kind,
@@ -479,7 +277,7 @@ void EdgeContacts::decide(const EdgeScene& scene, const LoadedTile& edges, std::
 }
 
 void EdgeContacts::put_in_order() {
-    check_contact_count(found_.size(), "edge contacts");
+    check_contact_count(found_.size(), "edges");
     keys_.clear();
     reserve_sparingly(keys_, found_.size());
     for (const EdgeContact& c : found_) {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "base/array.hpp"
-#include "base/boxes.hpp"
 #include "base/counters.hpp"
 #include "base/per_worker.hpp"
 #include "base/scene.hpp"
@@ -11,11 +10,10 @@
 #include "depth/penetrations.hpp"
 #include "exact/crossing.hpp"
 #include "exact/predicates.hpp"
-#include "fast/body_pairs.hpp"
-#include "grid/box_lanes.hpp"
+#include "fast/step_scene.hpp"
 #include "grid/contact_pairs.hpp"
 #include "grid/surface_features.hpp"
-#include "mesh/topology.hpp"
+#include "grid/surface_search.hpp"
 
 #include <vox/vox.h>
 
@@ -29,24 +27,7 @@
 
 namespace vox {
 
-class FastEngine;
 class Workers;
-
-// Of what the features of a surface are made from; each grows with every change (Mesh).
-struct SurfaceVersion {
-    std::uint32_t topology, tiles;
-
-    bool operator==(const SurfaceVersion&) const = default;
-};
-
-// A step as it is when the hits are found.
-struct EdgeScene {
-    std::span<const Body> bodies;
-    std::span<const Topology* const> topologies; // of each
-    std::span<const SurfaceVersion> versions;    // of each
-    const FastEngine* engine;                    // null for the reference engine: nothing is carried over
-    Workers* workers;
-};
 
 // A mesh of edge contacts, as it is when their depths are asked for.
 struct EdgeBody {
@@ -76,9 +57,10 @@ class EdgeContacts {
 public:
     explicit EdgeContacts(std::pmr::memory_resource* memory);
 
-    // Replaces the contacts. Those between bodies at rest are carried over; the surfaces of bodies that are
-    // near others are prepared. Sets the counters of edge contacts. If it throws, clear() is to be called.
-    void find(const EdgeScene& scene, Counters& counters);
+    // Replaces the contacts. Those between bodies at rest are carried over; the features of bodies that are
+    // near others are made. If it throws, clear() is to be called.
+    void find(const StepScene& scene, KeptFeatures& kept);
+    void count(Counters& counters);
 
     std::span<const EdgeContact> all() const noexcept { return contacts_; }
     // Whether the last step found what the one before had, all of it carried over.
@@ -92,39 +74,19 @@ public:
     std::span<const Depth> depths() const noexcept { return depths_; } // after prepare_depths()
 
     void clear() noexcept;
-    // Of a mesh that is gone, or whose tetrahedra are others.
-    void forget(vox_body mesh) noexcept;
-    void forget_all() noexcept { surfaces_.clear(); }
 
 private:
-    // What is kept of a mesh, by its id.
-    struct Surface {
-        Surface(vox_body id, SurfaceVersion made_from, std::pmr::memory_resource* memory) noexcept
-            : mesh(id), version(made_from), features(memory) {}
-
-        vox_body mesh;
-        SurfaceVersion version;
-        SurfaceFeatures features;
-    };
-    // What a step knows of a body.
-    struct StepSurface {
-        const SurfaceFeatures* features; // null for a body that no pair has
-        std::uint32_t first_tile;        // in tile_boxes_
-        BlockBoxes blocks;               // with the fast engine
-        const float* positions;          // packed, rounded to floats
-        Box reached;                     // around where the boxes of others overlap that of the body
-        Box box;                         // around those of its tiles that are there
-    };
-    struct TilePiece {
-        std::uint32_t body, first, last;
-    };
     // What a search reads of a tile, in one place.
     struct LoadedTile {
         std::uint32_t body = ~0u, index = ~0u;
+        const SurfaceFeatures* features = nullptr;
         const SurfaceTile* tile = nullptr;
+        const std::uint32_t* vertices = nullptr;
+        const std::array<std::uint8_t, 3>* corners = nullptr; // of each face
+        const std::array<std::uint8_t, 2>* ends = nullptr;    // of each edge
         Box box{};
         FaceBoxes faces;
-        EdgeBoxes edges;
+        std::array<Box, SurfaceTile::most_edges> edges;
         // Made when they are first needed.
         bool has_points = false;
         std::uint64_t has_plane = 0; // of each face, a bit
@@ -135,13 +97,12 @@ private:
         static constexpr std::size_t most_loaded = 16;
 
         explicit Worker(std::pmr::memory_resource* memory)
-            : tiles_a(memory), tiles_b(memory), boxes_b(memory), groups_b(memory), loaded(memory),
-              crossed_at(memory) {}
-        auto buffers() { return std::tie(tiles_a, tiles_b, boxes_b, groups_b, crossed_at); }
+            : tiles_a(memory), tiles_b(memory), boxes_b(memory), loaded(memory), crossed_at(memory) {}
+        auto buffers() { return std::tuple_cat(boxes_b.buffers(), std::tie(tiles_a, tiles_b, crossed_at)); }
 
         // Tiles of the two bodies of a pair that may meet the other one.
         Array<std::uint32_t> tiles_a, tiles_b;
-        Array<Box> boxes_b, groups_b; // of tiles_b
+        GroupedBoxes boxes_b; // of tiles_b
         // Tiles that were looked at last, each in its place; and one of the body whose turn it is.
         Array<LoadedTile> loaded;
         // Where an edge passes through faces of a mesh, ascending, as fractions of its way: for depths.
@@ -156,40 +117,19 @@ private:
         auto operator<=>(const Key&) const = default;
     };
 
-    void carry(const EdgeScene& scene);
-    void list_pairs(const EdgeScene& scene);
-    void pack_positions(const EdgeScene& scene);
-    const Box& box_of(const EdgeScene& scene, std::uint32_t body) const;
-    void prepare_surfaces(const EdgeScene& scene);
-    const SurfaceFeatures& surface_of(const EdgeScene& scene, std::uint32_t body);
-    void make_tile_boxes(const EdgeScene& scene);
-    void search_pairs(const EdgeScene& scene);
-    bool list_tiles(const EdgeScene& scene, const fast::Pair& pair, Worker& worker) const;
-    void search(const EdgeScene& scene, const fast::Pair& pair, const Worker& tiles, std::size_t begin,
+    void list_pairs(const StepScene& scene);
+    std::size_t list_tiles(const StepScene& scene, const fast::Pair& pair, Worker& worker) const;
+    void search(const StepScene& scene, const fast::Pair& pair, const Worker& tiles, std::size_t begin,
                 std::size_t end, Worker& worker);
     void load(std::uint32_t body, std::uint32_t tile, LoadedTile& out) const;
-    void make_points(const EdgeScene& scene, LoadedTile& tile) const;
-    const TrianglePlane& plane_of(LoadedTile& tile, std::size_t face) const;
-    void test(const EdgeScene& scene, LoadedTile& edges, LoadedTile& faces, Worker& worker);
-    void decide(const EdgeScene& scene, const LoadedTile& edges, std::size_t edge, const LoadedTile& faces,
+    void test(const StepScene& scene, LoadedTile& edges, LoadedTile& faces, Worker& worker);
+    void decide(const StepScene& scene, const LoadedTile& edges, std::size_t edge, const LoadedTile& faces,
                 std::size_t face, Worker& worker);
     void put_in_order();
 
-    std::pmr::memory_resource* memory() const noexcept { return surfaces_.memory(); }
-
-    Array<Surface> surfaces_; // by mesh
-
     // One step.
-    // With the reference engine; the fast one has them.
-    fast::PairBuffers pair_buffers_;
-    Array<Box> body_boxes_;
-    Array<float> packed_;
-    Array<std::size_t> first_packed_; // of each body
-    // With both.
     Array<fast::Pair> pairs_of_bodies_; // a <= b
-    Array<StepSurface> step_surfaces_;  // of each body
-    Array<TilePiece> pieces_;
-    Array<Box> tile_boxes_; // empty beyond that
+    SearchedBodies bodies_;
     PerWorker<Worker> workers_;
     std::mutex mutex_; // of found_
     Array<EdgeContact> found_;
@@ -199,6 +139,7 @@ private:
     Array<EdgeContact> contacts_;
     Array<IdPair> pairs_;
     Array<Depth> depths_;
+    std::uint64_t carried_ = 0;
     bool unchanged_ = false;
 };
 

@@ -163,10 +163,10 @@ void vox_grid::make_constraints(const vox_constraint_desc& desc, bool in_step, C
         sources.edges = edges_->all();
         if (with_depth) sources.edge_depths = edges_->depths();
     }
-    if (margin_contacts_) sources.proximities = margin_contacts_->all();
-    if (passages_) {
-        sources.passages = passages_->all();
-        sources.impacts = passages_->impacts();
+    if (proximities_) sources.proximities = proximities_->all();
+    if (impacts_) {
+        sources.meetings = impacts_->meetings();
+        sources.impacts = impacts_->all();
     }
     constraints_.find(sources, workers_);
     profile.constraints_ns = nanoseconds() - depths_found;

@@ -88,10 +88,11 @@ vox_grid::vox_grid(const vox_grid_desc& desc, const MemoryShare& memory)
       used_cell_size_(desc.cell_size), adaptive_(weights_of(desc.reference)), meshes_(&memory_),
       bodies_(&memory_), prepared_(&memory_), fast_engine_(&memory_), reference_(&memory_),
       topologies_(&memory_), trees_(&memory_), finds_constraints_((desc.flags & VOX_GRID_CONSTRAINTS) != 0),
-      hits_(&memory_), surface_versions_(&memory_), contacts_(&memory_), interiors_(&memory_),
-      left_out_(&memory_), penetrations_(&memory_), pairs_(&memory_), touching_pairs_(&memory_),
-      constraints_(&memory_), chosen_pairs_(&memory_), chosen_bodies_(&memory_), chosen_hits_(&memory_),
-      edge_bodies_(&memory_), entered_bodies_(&memory_), locators_(share_), query_bodies_(&memory_) {
+      hits_(&memory_), surface_versions_(&memory_), streamed_(&memory_), features_(&memory_),
+      contacts_(&memory_), interiors_(&memory_), left_out_(&memory_), penetrations_(&memory_),
+      pairs_(&memory_), touching_pairs_(&memory_), constraints_(&memory_), chosen_pairs_(&memory_),
+      chosen_bodies_(&memory_), chosen_hits_(&memory_), edge_bodies_(&memory_), entered_bodies_(&memory_),
+      locators_(share_), query_bodies_(&memory_) {
     if (finds_constraints_) depth_.emplace(&memory_, trees_);
     if (desc.flags & VOX_GRID_EDGES) edges_.emplace(&memory_);
     set_margin(desc.margin);
@@ -105,9 +106,13 @@ vox_grid::vox_grid(const vox_grid_desc& desc, const MemoryShare& memory)
 // facets.
 void vox_grid::prepare(Mesh& mesh, fast::MeshState& state) {
     if (needs_topology(mesh.filter())) mesh.make_topology();
-    if (!fast_ || !mesh.has_positions()) return;
-    mesh.make_tiles();
-    state.update(mesh.tiled(), mesh.tiles_version(), mesh.vertex_count());
+    if (!mesh.has_positions()) return;
+    if (fast_) {
+        mesh.make_tiles();
+        state.update(mesh.tiled(), mesh.tiles_version(), mesh.vertex_count());
+    } else if (finds_surfaces()) {
+        mesh.make_tiles();
+    }
 }
 
 vox_body vox_grid::insert(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter) {
@@ -143,9 +148,8 @@ void vox_grid::scene_changed() noexcept {
 void vox_grid::remove(vox_body id) {
     meshes_.remove(id);
     trees_.forget(id);
-    if (edges_) edges_->forget(id);
-    if (near_faces_) near_faces_->forget(id);
-    if (passages_) passages_->forget(id);
+    features_.forget(id);
+    if (impacts_) impacts_->forget(id);
     scene_changed();
 }
 
@@ -153,13 +157,12 @@ void vox_grid::clear() {
     meshes_.clear();
     trees_.forget_all();
     scene_changed();
+    features_.forget_all();
     if (edges_) {
-        edges_->forget_all();
         edges_->clear();
     }
-    passages_.reset();
-    if (margin_contacts_) margin_contacts_->clear();
-    if (near_faces_) near_faces_->forget_all();
+    impacts_.reset();
+    if (proximities_) proximities_->clear();
     look_near();
     contacts_.clear();
     interiors_.clear();
@@ -223,9 +226,9 @@ void vox_grid::set_pair_enabled(vox_body a, vox_body b, bool enabled) {
 
 void vox_grid::bind_previous(vox_body id, const Positions& positions) {
     (void)mesh(id); // throws for an id that names no mesh
-    if (!passages_ && !positions.data) return;
-    if (!passages_) passages_.emplace(&memory_);
-    passages_->bind(id, positions);
+    if (!impacts_ && !positions.data) return;
+    if (!impacts_) impacts_.emplace(&memory_);
+    impacts_->bind(id, positions);
     look_near();
 }
 
@@ -249,9 +252,8 @@ void vox_grid::set_topology(vox_body id, const vox_mesh_desc& desc, const Body& 
     meshes_.replace(id, std::move(made), std::move(state));
     meshes_[id].edited = true;
     trees_.topology_changed(id);
-    if (edges_) edges_->forget(id);
-    if (near_faces_) near_faces_->forget(id);
-    if (passages_) passages_->forget(id);
+    features_.forget(id);
+    if (impacts_) impacts_->forget(id);
     if (view.vertex_count == 0) contacts_hold_ = false; // no positions show that it changed
     scene_changed();
     warn_of_traps(meshes_[id].mesh, id);
@@ -270,7 +272,7 @@ std::uint32_t vox_grid::append_vertices(vox_body id, const vox_vertices_desc& de
     (void)mesh(id); // throws for an id that names no mesh
     meshes_.check_growth(desc.count, 0);
     const std::uint32_t first = meshes_.append_vertices(id, desc);
-    if (passages_ && desc.count > 0) passages_->forget(id);
+    if (impacts_ && desc.count > 0) impacts_->forget(id);
     was_edited(id, desc.count);
     return first;
 }
@@ -369,8 +371,9 @@ void vox_grid::set_margin(double margin) {
     check_margin(margin);
     if (margin == margin_) return;
     margin_ = margin;
-    if (margin > 0 && !margin_contacts_) margin_contacts_.emplace(&memory_);
-    if (margin == 0) margin_contacts_.reset();
+    if (margin > 0 && !proximities_) proximities_.emplace(&memory_);
+    if (margin == 0) proximities_.reset();
+    if (proximities_) proximities_->set_margin(margin);
     look_near();
     contacts_hold_ = false; // there is more, or less, to do with meshes at rest
     ++epoch_;
@@ -378,10 +381,10 @@ void vox_grid::set_margin(double margin) {
 
 // The next step prepares what it needs; what none needs is given up.
 void vox_grid::look_near() noexcept {
-    const bool look = margin_contacts_ || passages_;
+    const bool look = proximities_ || impacts_;
     if (look == near_faces_.has_value()) return;
     if (look) {
-        near_faces_.emplace(&memory_);
+        near_faces_.emplace(features_, &memory_);
     } else {
         near_faces_.reset();
         drop_surfaces();
@@ -392,6 +395,8 @@ void vox_grid::look_near() noexcept {
 void vox_grid::drop_surfaces() noexcept {
     if (finds_surfaces()) return;
     surface_versions_ = Array<SurfaceVersion>(&memory_);
+    streamed_ = StreamedScene(&memory_);
+    features_ = KeptFeatures(&memory_);
     meshes_.for_each([this](vox_body, MeshSlot& slot) {
         if (!needs_topology(slot.mesh.filter())) slot.mesh.drop_topology();
     });

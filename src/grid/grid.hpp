@@ -11,12 +11,14 @@
 #include "cell_size/scene.hpp"
 #include "depth/stage.hpp"
 #include "fast/engine.hpp"
+#include "fast/step_scene.hpp"
 #include "grid/constraints.hpp"
 #include "grid/edge_contacts.hpp"
-#include "grid/margin_contacts.hpp"
+#include "grid/impacts.hpp"
 #include "grid/mesh_table.hpp"
 #include "grid/pairs.hpp"
-#include "grid/passages.hpp"
+#include "grid/proximities.hpp"
+#include "grid/surface_features.hpp"
 #include "grid/vertex_face_search.hpp"
 #include "query/locator.hpp"
 #include "reference/engine.hpp"
@@ -126,8 +128,7 @@ private:
     void drop_surfaces() noexcept;
     void look_near() noexcept;
     void list_counters() noexcept;
-    void find_near(vox::Counters& counters);
-    bool find_edges(vox::Counters& counters);
+    bool search_surfaces(vox::Counters& counters, vox::Profile& profile);
     std::span<const vox::IdPair> touching_pairs();
     void scene_changed() noexcept;
     bool chooses_cell_size() const noexcept { return requested_cell_size_ == 0; }
@@ -167,7 +168,7 @@ private:
 
     // one step
     vox::Array<vox::Body> bodies_;
-    vox::Array<vox::fast::PreparedBody> prepared_; // of each body, for the fast engine
+    vox::Array<vox::fast::PreparedBody> prepared_; // of each body that has tiles
     vox::FastEngine fast_engine_;
     vox::ReferenceEngine reference_;
     vox::Array<const vox::Topology*> topologies_; // of each body, for the depth stage
@@ -175,12 +176,14 @@ private:
     bool finds_constraints_;                      // every step does
     std::optional<vox::DepthStage> depth_;        // once depths were looked for
     vox::Array<vox::Hit> hits_;
-    vox::Array<vox::SurfaceVersion> surface_versions_; // of each body, while it finds edge contacts
+    vox::Array<vox::SurfaceVersion> surface_versions_; // of each body, while it finds some of the following
+    vox::StreamedScene streamed_;                      // what these read of the reference engine's steps
+    vox::KeptFeatures features_;                       // of the surfaces that these came upon
     std::optional<vox::EdgeContacts> edges_;           // while it finds them; has the results as well
     double margin_ = 0;
-    std::optional<vox::VertexFaceSearch> near_faces_;    // while one of these is there
-    std::optional<vox::MarginContacts> margin_contacts_; // while there is a margin; has the results as well
-    std::optional<vox::Passages> passages_; // while a mesh has previous positions; has the results as well
+    std::optional<vox::VertexFaceSearch> near_faces_; // while one of these is there
+    std::optional<vox::Proximities> proximities_;     // while there is a margin; has the results as well
+    std::optional<vox::Impacts> impacts_; // while a mesh has previous positions; has the results as well
 
     // results
     vox::Array<vox_contact> contacts_;

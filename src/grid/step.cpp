@@ -24,8 +24,8 @@ void vox_grid::step() {
     depths_may_carry_ = stepped_ = false;
     failure_ = {};
     left_out_.clear();
-    if (passages_ && !passages_->any_bound()) {
-        passages_.reset();
+    if (impacts_ && !impacts_->any_bound()) {
+        impacts_.reset();
         look_near();
     }
     ++epoch_;
@@ -44,16 +44,8 @@ void vox_grid::step() {
         if (!all_carried) make_contacts(bodies_, hits_, contacts_, &workers_, &interiors_);
         std::uint64_t contacts_made = nanoseconds();
         profile.contacts_ns = contacts_made - detected;
-        const bool same_edges = find_edges(counters);
-        if (edges_) {
-            profile.edges_ns = nanoseconds() - contacts_made;
-            contacts_made += profile.edges_ns;
-        }
-        if (near_faces_) {
-            find_near(counters);
-            profile.margin_ns = nanoseconds() - contacts_made;
-            contacts_made += profile.margin_ns;
-        }
+        const bool same_edges = !finds_surfaces() || search_surfaces(counters, profile);
+        contacts_made += profile.edges_ns + profile.margin_ns;
 
         // If every contact was carried, so are the depths.
         if (!(carry && all_carried && had_depths)) depths_.all = false;
@@ -64,7 +56,7 @@ void vox_grid::step() {
             pairs_.repeat();
         else
             pairs_.update(contacts_, touching_pairs(),
-                          margin_contacts_ ? margin_contacts_->pairs() : std::span<const IdPair>(),
+                          proximities_ ? proximities_->pairs() : std::span<const IdPair>(),
                           meshes_.slot_count(), [this](vox_body id) { return mesh(id).user_data(); });
         profile.pairs_ns = nanoseconds() - contacts_made;
         if (finds_constraints_) make_constraints({}, true, counters, profile);
@@ -103,7 +95,7 @@ void vox_grid::step() {
 // Pairs that touch by edges, or by vertices that went through.
 std::span<const IdPair> vox_grid::touching_pairs() {
     const auto edges = edges_ ? edges_->pairs() : std::span<const IdPair>();
-    const auto impacts = passages_ ? passages_->pairs() : std::span<const IdPair>();
+    const auto impacts = impacts_ ? impacts_->pairs() : std::span<const IdPair>();
     if (impacts.empty()) return edges;
     touching_pairs_.clear();
     reserve_growing(touching_pairs_, edges.size() + impacts.size());
@@ -113,26 +105,36 @@ std::span<const IdPair> vox_grid::touching_pairs() {
     return touching_pairs_;
 }
 
-// Returns whether there are the same edge contacts as in the last step, or none are looked for.
-bool vox_grid::find_edges(Counters& counters) {
-    if (!edges_) return true;
-    edges_->find({bodies_, topologies_, surface_versions_, fast_ ? &fast_engine_ : nullptr, &workers_},
-                 counters);
-    return edges_->unchanged();
-}
-
-// Vertices near or through surfaces that they are not inside of.
-void vox_grid::find_near(Counters& counters) {
-    const EdgeScene scene{bodies_, topologies_, surface_versions_, fast_ ? &fast_engine_ : nullptr,
-                          &workers_};
-    if (passages_) passages_->find(scene, contacts_, *near_faces_, counters);
-    if (margin_contacts_) margin_contacts_->find(scene, margin_, contacts_, *near_faces_, counters);
+// Edges through faces, vertices through faces, and vertices near faces that they are not inside of. Returns
+// whether there are the same edges as in the last step, or none are looked for.
+bool vox_grid::search_surfaces(Counters& counters, Profile& profile) {
+    const std::uint64_t start = nanoseconds();
+    StepScene scene{bodies_, topologies_, surface_versions_, &workers_, contacts_};
+    if (fast_)
+        fast_engine_.fill(scene);
+    else
+        streamed_.fill(prepared_, scene);
+    if (edges_) {
+        edges_->find(scene, features_);
+        edges_->count(counters);
+        profile.edges_ns = nanoseconds() - start;
+    }
+    if (impacts_) {
+        impacts_->find(scene, *near_faces_);
+        impacts_->count(counters);
+    }
+    if (proximities_) {
+        proximities_->find(scene, *near_faces_);
+        proximities_->count(counters);
+    }
+    if (near_faces_) profile.margin_ns = nanoseconds() - start - profile.edges_ns;
+    return !edges_ || edges_->unchanged();
 }
 
 void vox_grid::forget_contacts() noexcept {
     if (edges_) edges_->clear();
-    if (margin_contacts_) margin_contacts_->clear();
-    if (passages_) passages_->clear();
+    if (proximities_) proximities_->clear();
+    if (impacts_) impacts_->clear();
     contacts_.clear();
     interiors_.clear();
     penetrations_.clear();
@@ -233,7 +235,8 @@ void vox_grid::gather_bodies(Counters& counters) {
         topologies_.push_back(&mesh.topology());
         if (finds_surfaces()) surface_versions_.push_back({mesh.topology_version(), mesh.tiles_version()});
         slot.edited = false;
-        if (fast_) prepared_.push_back({&mesh.tiled().tiles, &mesh.tiled().boundary, &slot.state});
+        if (fast_ || finds_surfaces())
+            prepared_.push_back({&mesh.tiled().tiles, &mesh.tiled().boundary, &slot.state});
     });
 }
 

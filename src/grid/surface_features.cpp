@@ -1,69 +1,34 @@
-// Faces are split at the median of their middles until as many are left as make a tile (J. Bentley,
-// Multidimensional binary search trees used for associative searching, Commun. ACM 18, 1975). An edge belongs
-// to the first of its faces in the order of the tiles.
+// Tiles are made by splits at medians. An edge belongs to the first of its faces in their order.
 #include "grid/surface_features.hpp"
 
 #include "base/array.hpp"
+#include "base/median_splits.hpp"
 #include "base/vectors.hpp"
+#include "mesh/facets.hpp"
+#include "mesh/tiles.hpp"
+#include "mesh/topology.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <span>
+#include <utility>
 
 namespace vox {
 
 namespace {
 
-// A face and three times its middle.
-struct Face {
-    double middle[3];
-    std::uint32_t triangle;
-};
-
-// Puts faces in the order of their tiles: the middles are split where they reach furthest, and the halves
-// again, each of whole tiles and, while they can be, of whole groups.
-void split_into_tiles(std::span<Face> faces) {
-    if (faces.size() <= SurfaceTile::most_faces) {
-        std::sort(faces.begin(), faces.end(),
-                  [](const Face& a, const Face& b) { return a.triangle < b.triangle; });
-        return;
-    }
-    int widest = 0;
-    double most = -1;
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto [least, greatest] =
-            std::minmax_element(faces.begin(), faces.end(), [axis](const Face& a, const Face& b) {
-                return a.middle[axis] < b.middle[axis];
-            });
-        const double extent = greatest->middle[axis] - least->middle[axis];
-        if (extent <= most) continue;
-        most = extent;
-        widest = axis;
-    }
-    const std::size_t tiles = (faces.size() + SurfaceTile::most_faces - 1) / SurfaceTile::most_faces,
-                      unit = tiles > tiles_of_group ? tiles_of_group : 1;
-    const std::size_t first_half = SurfaceTile::most_faces * ((tiles / 2 + unit - 1) / unit * unit);
-    std::nth_element(faces.begin(), faces.begin() + static_cast<std::ptrdiff_t>(first_half), faces.end(),
-                     [widest](const Face& a, const Face& b) {
-                         return a.middle[widest] != b.middle[widest] ? a.middle[widest] < b.middle[widest]
-                                                                     : a.triangle < b.triangle;
-                     });
-    split_into_tiles(faces.first(first_half));
-    split_into_tiles(faces.subspan(first_half));
-}
-
-// Of each place the triangle there.
+// The triangles in the order of their tiles, by three times their middles.
 Array<std::uint32_t> order_of_faces(const Topology& topology, const Positions& positions,
                                     std::pmr::memory_resource* memory) {
-    Array<Face> faces(topology.triangles.size(), memory);
+    Array<SplitPoint<double>> faces(topology.triangles.size(), memory);
     for (std::uint32_t t = 0; t < faces.size(); ++t) {
         const std::uint32_t* v = topology.triangles[t].v;
         const Vec3d sum = positions.exact(v[0]) + positions.exact(v[1]) + positions.exact(v[2]);
         faces[t] = {{sum.x, sum.y, sum.z}, t};
     }
-    split_into_tiles(faces);
+    split_at_medians(std::span(faces), SurfaceTile::most_faces, tiles_of_group, [](const auto&) {});
     Array<std::uint32_t> order(faces.size(), memory);
-    for (std::size_t i = 0; i < faces.size(); ++i) order[i] = faces[i].triangle;
+    for (std::size_t i = 0; i < faces.size(); ++i) order[i] = faces[i].index;
     return order;
 }
 
@@ -73,7 +38,7 @@ bool has_vertex(const Triangle& triangle, std::uint32_t vertex) {
 
 // Adds the tile of these triangles, of which `place` has all.
 void add_tile(const Topology& topology, std::span<const std::uint32_t> tile,
-              const Array<std::uint32_t>& place, const Tiles* tiles, SurfaceFeatures& out) {
+              const Array<std::uint32_t>& place, const Tiles& tiles, SurfaceFeatures& out) {
     std::array<std::uint32_t, SurfaceTile::most_vertices> vertices;
     auto end = vertices.begin();
     for (const std::uint32_t t : tile) end = std::copy_n(topology.triangles[t].v, 3, end);
@@ -88,7 +53,6 @@ void add_tile(const Topology& topology, std::span<const std::uint32_t> tile,
     for (const std::uint32_t t : tile) {
         const std::uint32_t* v = topology.triangles[t].v;
         out.faces.push_back({index_of(v[0]), index_of(v[1]), index_of(v[2])});
-        out.triangles.push_back(t);
         for (int side = 0; side < 3; ++side) {
             const std::uint32_t a = v[side], b = v[(side + 1) % 3];
             bool is_first = true;
@@ -97,12 +61,10 @@ void add_tile(const Topology& topology, std::span<const std::uint32_t> tile,
             if (is_first) out.edges.push_back({index_of(a), index_of(b)});
         }
     }
-    if (tiles)
-        for (auto v = vertices.begin(); v != end; ++v) {
-            const std::uint32_t block = tiles->block_of(*v);
-            if (out.blocks.size() == made.first_block || out.blocks.back() != block)
-                out.blocks.push_back(block);
-        }
+    for (auto v = vertices.begin(); v != end; ++v) {
+        const std::uint32_t block = tiles.block_of(*v);
+        if (out.blocks.size() == made.first_block || out.blocks.back() != block) out.blocks.push_back(block);
+    }
     made.block_count = static_cast<std::uint8_t>(out.blocks.size() - made.first_block);
     made.vertex_count = static_cast<std::uint8_t>(end - vertices.begin());
     made.face_count = static_cast<std::uint8_t>(tile.size());
@@ -122,20 +84,44 @@ void add_group(std::size_t first, SurfaceFeatures& out) {
                           static_cast<std::uint32_t>(groups.end() - groups.begin() - begin)});
 }
 
-} // namespace
+// The tetrahedron behind each face, and which of its facets the face is.
+void add_tets(const Topology& topology, const Array<std::uint32_t>& place, SurfaceFeatures& out) {
+    out.tets.assign(place.size(), ~0u);
+    out.facets.resize(place.size());
+    for (std::uint32_t tet = 0; tet < topology.across.size(); ++tet)
+        for (std::uint8_t facet = 0; facet < 4; ++facet) {
+            const std::uint32_t across = topology.across(tet, facet);
+            if (across == Across::nothing || !(across & Across::surface_bit)) continue;
+            const std::uint32_t face = place[across & ~Across::surface_bit];
+            if (out.tets[face] != ~0u) continue; // doubled
+            out.tets[face] = tet;
+            out.facets[face] = facet;
+        }
+}
 
-void make_surface_features(const Topology& topology, const Positions& positions, const Tiles* tiles,
-                           SurfaceFeatures& out) {
+// Puts the corners of faces in the order of their facets, which those of doubled tetrahedra may not be in.
+void order_corners(std::span<const Tet> tets, SurfaceFeatures& out) {
+    for (const SurfaceTile& tile : out.tiles)
+        for (std::uint32_t f = tile.first_face; f < tile.first_face + tile.face_count; ++f) {
+            const std::array<std::uint8_t, 3> given = out.faces[f];
+            for (std::size_t c = 0; c < 3; ++c) {
+                const std::uint32_t vertex = tets[out.tets[f]].v[facet_corners[out.facets[f]][c]];
+                for (const std::uint8_t i : given)
+                    if (out.vertices[tile.first_vertex + i] == vertex) out.faces[f][c] = i;
+            }
+        }
+}
+
+void make_features(const Topology& topology, const Body& body, const Tiles& tiles, SurfaceFeatures& out) {
     std::pmr::memory_resource* memory = out.tiles.memory();
     const std::size_t count = topology.triangles.size();
-    const Array<std::uint32_t> order = order_of_faces(topology, positions, memory);
+    const Array<std::uint32_t> order = order_of_faces(topology, body.positions, memory);
     Array<std::uint32_t> place(count, memory);
     for (std::size_t i = 0; i < count; ++i) place[order[i]] = static_cast<std::uint32_t>(i);
 
     // A closed surface has three edges for two faces. Vertices are in two tiles, or three.
     out.tiles.reserve((count + SurfaceTile::most_faces - 1) / SurfaceTile::most_faces);
     out.faces.reserve(count);
-    out.triangles.reserve(count);
     out.edges.reserve(count + count / 2 + 3);
     out.vertices.reserve(count + 3);
     for (std::size_t first = 0; first < count; first += SurfaceTile::most_faces) {
@@ -147,15 +133,28 @@ void make_surface_features(const Topology& topology, const Positions& positions,
     }
     if (const std::size_t rest = out.tiles.size() % tiles_of_group; rest > 0)
         add_group(out.tiles.size() - rest, out);
+    add_tets(topology, place, out);
+    order_corners(body.tets, out);
+}
 
-    out.tets.assign(count, ~0u);
-    for (std::uint32_t tet = 0; tet < topology.across.size(); ++tet)
-        for (std::uint32_t facet = 0; facet < 4; ++facet) {
-            const std::uint32_t across = topology.across(tet, facet);
-            if (across == Across::nothing || !(across & Across::surface_bit)) continue;
-            std::uint32_t& of_face = out.tets[place[across & ~Across::surface_bit]];
-            of_face = std::min(of_face, tet);
-        }
+} // namespace
+
+const SurfaceFeatures& KeptFeatures::of(const StepScene& scene, std::uint32_t body) {
+    const vox_body mesh = scene.bodies[body].mesh_id;
+    auto place = std::ranges::lower_bound(meshes_, mesh, {}, &Kept::mesh);
+    const bool is_there = place != meshes_.end() && place->mesh == mesh;
+    if (is_there && place->version == scene.versions[body]) return place->features;
+    Kept made{mesh, scene.versions[body], SurfaceFeatures(meshes_.memory())};
+    make_features(*scene.topologies[body], scene.bodies[body], *scene.of[body].tiles, made.features);
+    if (is_there)
+        *place = std::move(made);
+    else
+        place = meshes_.insert(place, std::move(made));
+    return place->features;
+}
+
+void KeptFeatures::forget(vox_body mesh) noexcept {
+    erase_if(meshes_, [mesh](const Kept& kept) { return kept.mesh == mesh; });
 }
 
 } // namespace vox

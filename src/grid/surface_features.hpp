@@ -1,13 +1,12 @@
-// The edges and faces of the surface of a mesh, in tiles: what the search for edge contacts looks at. Made
-// from the topology; the positions at that time only decide how compact the tiles are.
+// The vertices, edges and faces of the surface of a mesh, in tiles: what the searches over surfaces look at.
+// Made from the topology; the positions at that time only decide how compact the tiles are.
 #pragma once
 
 #include "base/array.hpp"
-#include "base/boxes.hpp"
 #include "base/scene.hpp"
-#include "fast/broad_phase.hpp"
-#include "mesh/tiles.hpp"
-#include "mesh/topology.hpp"
+#include "fast/step_scene.hpp"
+
+#include <vox/vox.h>
 
 #include <array>
 #include <cstdint>
@@ -34,56 +33,40 @@ struct SurfaceGroup {
 struct SurfaceFeatures {
     explicit SurfaceFeatures(std::pmr::memory_resource* memory) noexcept
         : tiles(memory), groups(memory), vertices(memory), blocks(memory), block_groups(memory),
-          faces(memory), edges(memory), triangles(memory), tets(memory) {}
+          faces(memory), edges(memory), tets(memory), facets(memory) {}
 
     Array<SurfaceTile> tiles;
     Array<SurfaceGroup> groups;
     Array<std::uint32_t> vertices; // of the mesh
-    // For the fast engine: the blocks that hold the vertices of a tile, and the groups of blocks
-    // (fast::group_blocks) that hold those of a group of tiles.
+    // The blocks that hold the vertices of a tile, and the groups of blocks (fast::group_blocks) that hold
+    // those of a group of tiles.
     Array<std::uint32_t> blocks, block_groups;
-    // Indices of vertices of the tile.
+    // Indices of vertices of the tile; those of a face in the order of facet_corners.
     Array<std::array<std::uint8_t, 3>> faces;
     Array<std::array<std::uint8_t, 2>> edges;
-    Array<std::uint32_t> triangles; // of each face, in Topology::triangles
-    Array<std::uint32_t> tets;      // of each face, the one behind it; of doubled ones the lowest
+    Array<std::uint32_t> tets;  // of each face, the one behind it; of doubled ones the lowest
+    Array<std::uint8_t> facets; // of each face, which of the tetrahedron it is
 };
 
-// The boxes of the blocks of a body, and of groups of them.
-struct BlockBoxes {
-    const Box *blocks = nullptr, *groups = nullptr;
+// The features of each mesh that a search came upon, made once for all searches.
+class KeptFeatures {
+public:
+    explicit KeptFeatures(std::pmr::memory_resource* memory) noexcept : meshes_(memory) {}
+
+    // Those of a body, made anew where the mesh has changed; others may move. Takes time linear in the tets,
+    // and n log n in the faces. Throws what the memory throws.
+    const SurfaceFeatures& of(const StepScene& scene, std::uint32_t body);
+
+    void forget(vox_body mesh) noexcept; // one that is gone, or whose tetrahedra are others
+    void forget_all() noexcept { meshes_.clear(); }
+
+private:
+    struct Kept {
+        vox_body mesh;
+        SurfaceVersion version;
+        SurfaceFeatures features;
+    };
+    Array<Kept> meshes_; // by id
 };
-
-// Makes the boxes of the tiles [first, last), the first one at the begin of a group, `out[0]` that of
-// `first`: by `box_of`, or empty where the blocks of a tile, and so its faces, all lie to one side of
-// `region`. Without blocks all get a box.
-template <class BoxOfTile>
-void make_boxes_in(const Box& region, const SurfaceFeatures& features, const BlockBoxes& boxes,
-                   std::uint32_t first, std::uint32_t last, Box* out, const BoxOfTile& box_of) {
-    const bool has_blocks = boxes.blocks && !features.blocks.empty();
-    for (std::uint32_t begin = first; begin < last; begin += tiles_of_group) {
-        const std::uint32_t end = std::min(begin + tiles_of_group, last);
-        const SurfaceGroup& group = features.groups[begin / tiles_of_group];
-        if (has_blocks &&
-            fast::common_sides(boxes.groups, {features.block_groups.data() + group.first, group.count},
-                               region)) {
-            out = std::fill_n(out, end - begin, empty_box);
-            continue;
-        }
-        for (std::uint32_t t = begin; t < end; ++t) {
-            const SurfaceTile& tile = features.tiles[t];
-            const bool is_to_one_side =
-                has_blocks &&
-                fast::common_sides(boxes.blocks,
-                                   {features.blocks.data() + tile.first_block, tile.block_count}, region);
-            *out++ = is_to_one_side ? empty_box : box_of(tile);
-        }
-    }
-}
-
-// Of an empty `out`. `tiles` are those of the mesh; null: there are no blocks. Takes time linear in the tets,
-// and n log n in the faces. Throws what the memory throws.
-void make_surface_features(const Topology& topology, const Positions& positions, const Tiles* tiles,
-                           SurfaceFeatures& out);
 
 } // namespace vox

@@ -3,45 +3,23 @@
 #include "grid/vertex_face_search.hpp"
 
 #include "base/array.hpp"
-#include "base/parallel.hpp"
+#include "base/error.hpp"
 #include "base/room.hpp"
-#include "base/vectors.hpp"
 #include "fast/broad_phase.hpp"
-#include "fast/engine.hpp"
 #include "fast/stream.hpp"
 #include "mesh/check.hpp"
-#include "mesh/facets.hpp"
 
 #include <algorithm>
-#include <bit>
+#include <array>
 #include <cmath>
-#include <utility>
 
 namespace vox {
 
 namespace {
 
-constexpr std::uint32_t near_group_size = 32; // runs whose common box is tested first
-
-// How much work is worth a task of its own.
-constexpr std::size_t near_task_tiles = 128;  // whose boxes are made: 40 vertices each
-constexpr std::size_t near_task_pairs = 16;   // of small bodies
-constexpr std::size_t near_task_searches = 8; // of tiles against all vertices of the other body
-
-constexpr std::size_t near_small_body = 64; // tiles, which take no task of their own
-
-constexpr std::uint32_t vertices_of_block = 8;
-
 // Positions of which nothing is known but the nearest floats are off by 2^-24 of the largest coordinate at
 // most, on each axis, and so is a side of a box that has grown.
 constexpr double rounding = 0x1p-21;
-
-Box grown(const Box& box, float by) noexcept {
-    Box out;
-    for (int i = 0; i < 4; ++i) out.lo[i] = box.lo[i] - by;
-    for (int i = 0; i < 4; ++i) out.hi[i] = box.hi[i] + by;
-    return out;
-}
 
 // Half of how far apart two bodies with this box can be, as boxes of floats show it.
 float growth(const Box& box, double margin) noexcept {
@@ -52,356 +30,183 @@ float growth(const Box& box, double margin) noexcept {
     return static_cast<float>(std::min(by, 0x1p126));
 }
 
-// The faces in the order that their tetrahedra have them in, which those of doubled ones may not be in, and
-// the facets that they are.
-void order_faces(std::span<const Tet> tets, SearchedSurface& surface) {
-    SurfaceFeatures& features = surface.features;
-    surface.facets.resize(features.faces.size());
-    for (const SurfaceTile& tile : features.tiles)
-        for (std::uint32_t f = tile.first_face; f < tile.first_face + tile.face_count; ++f) {
-            const std::array<std::uint8_t, 3> given = features.faces[f];
-            const std::uint32_t* vertices = features.vertices.data() + tile.first_vertex;
-            const Tet& tet = tets[features.tets[f]];
-            const auto local = [&](std::uint32_t vertex) {
-                for (const std::uint8_t i : given)
-                    if (vertices[i] == vertex) return int{i};
-                return -1;
-            };
-            for (std::uint8_t facet = 0; facet < 4; ++facet) {
-                int corner[3];
-                for (int c = 0; c < 3; ++c) corner[c] = local(tet.v[facet_corners[facet][c]]);
-                if (corner[0] < 0 || corner[1] < 0 || corner[2] < 0) continue;
-                for (std::size_t c = 0; c < 3; ++c)
-                    features.faces[f][c] = static_cast<std::uint8_t>(corner[c]);
-                surface.facets[f] = facet;
-            }
-        }
+void check_previous(const Body& body, const Positions& previous) {
+    Body moving = body;
+    moving.positions = previous;
+    const std::uint32_t vertex = first_bad_vertex(moving);
+    if (vertex == VOX_NONE) return;
+    const vox_result result = bad_position(moving, vertex);
+    throw MeshError(result, body,
+                    format(", vertex %u: a coordinate of the previous position is %s", vertex,
+                           result == VOX_ERROR_LIMIT ? "too large" : "not finite"),
+                    vertex);
 }
 
 } // namespace
 
-VertexFaceSearch::VertexFaceSearch(std::pmr::memory_resource* memory)
-    : surfaces_(memory), packed_(memory), block_boxes_(memory), group_boxes_(memory), searched_(memory),
-      body_boxes_(memory), pair_buffers_(memory), pairs_(memory), pieces_(memory), tile_boxes_(memory),
-      workers_(memory) {}
-
-void VertexFaceSearch::forget(vox_body mesh) noexcept {
-    erase_if(surfaces_, [mesh](const Kept& kept) { return kept.mesh == mesh; });
-}
-
-std::uint32_t VertexFaceSearch::Searched::begin_of(std::uint32_t block) const noexcept {
-    return first_of_block ? first_of_block[block] : vertices_of_block * block;
-}
-
-std::uint32_t VertexFaceSearch::Searched::end_of(std::uint32_t block) const noexcept {
-    return first_of_block ? first_of_block[block + 1]
-                          : std::min(vertices_of_block * (block + 1), vertex_count);
-}
+VertexFaceSearch::VertexFaceSearch(KeptFeatures& kept, std::pmr::memory_resource* memory)
+    : kept_(kept), packed_(memory), block_boxes_(memory), group_boxes_(memory), bodies_(memory),
+      body_boxes_(memory), pair_buffers_(memory), pairs_(memory), workers_(memory) {}
 
 // ---- which bodies ---------------------------------------------------------------------------------
 
-void VertexFaceSearch::find_near(const Scene& scene, double margin, NearFacesVisitor& visitor) {
-    prepare_bodies(scene, {}, margin);
-    fast::PairRules rules{scene.bodies, {}};
-    if (scene.engine) rules.of = scene.engine->last_step().of;
-    fast::find_pairs(body_boxes_, rules, pair_buffers_, pairs_);
+void VertexFaceSearch::find_near(const StepScene& scene, double margin, NearFacesVisitor& visitor) {
+    bodies_.begin(scene);
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+        if (!is_empty(bodies_[b].box)) bodies_[b].grow = growth(bodies_[b].box, margin);
+    find_pairs(scene, {scene.bodies, scene.of});
     search(scene, visitor);
 }
 
-void VertexFaceSearch::find_meeting(const Scene& scene, std::span<const Positions> previous,
+void VertexFaceSearch::find_meeting(const StepScene& scene, std::span<const Positions> previous,
                                     NearFacesVisitor& visitor) {
-    prepare_bodies(scene, previous, 0);
-    fast::find_pairs(body_boxes_, {scene.bodies, {}}, pair_buffers_, pairs_);
+    bodies_.begin(scene);
+    move_bodies(scene, previous);
+    find_pairs(scene, {scene.bodies, {}});
     erase_if(pairs_,
              [&](const fast::Pair& pair) { return !previous[pair.a].data && !previous[pair.b].data; });
     search(scene, visitor);
 }
 
-// Nearest floats, in packed_ from `place` on.
-void VertexFaceSearch::pack(const Positions& positions, const Vec3d& origin, std::uint32_t count,
-                            std::size_t& place) {
-    fast::round_positions(positions, origin, 0, count, packed_.data() + place);
-    place += 3 * std::size_t{count};
-}
-
-void VertexFaceSearch::prepare_bodies(const Scene& scene, std::span<const Positions> previous,
-                                      double margin) {
-    const std::size_t bodies = scene.bodies.size();
-    const auto moves = [&](std::size_t b) { return !previous.empty() && previous[b].data; };
-    const auto blocks_of = [](const Scene& s, std::size_t b) {
-        return s.engine ? s.engine->last_step().of[b].tiles->block_count()
-                        : (s.bodies[b].vertex_count + vertices_of_block - 1) / vertices_of_block;
-    };
-    const auto groups_of = [](std::size_t count) {
-        return (count + fast::group_blocks - 1) / fast::group_blocks;
+// Bodies with previous positions get boxes of their own, around where their vertices are and were.
+void VertexFaceSearch::move_bodies(const StepScene& scene, std::span<const Positions> previous) {
+    const auto groups_of = [](std::size_t blocks) {
+        return (blocks + fast::group_blocks - 1) / fast::group_blocks;
     };
     std::size_t floats = 0, blocks = 0, groups = 0;
-    for (std::size_t b = 0; b < bodies; ++b) {
-        const std::size_t count = scene.bodies[b].vertex_count;
-        floats += 3 * count * (std::size_t{!scene.engine} + std::size_t{moves(b)});
-        if (scene.engine && !moves(b)) continue;
-        blocks += blocks_of(scene, b);
-        groups += groups_of(blocks_of(scene, b));
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+        if (!previous[b].data) continue;
+        floats += 3 * std::size_t{scene.bodies[b].vertex_count};
+        blocks += bodies_[b].block_count();
+        groups += groups_of(bodies_[b].block_count());
     }
     packed_.resize(floats);
-    block_boxes_.resize(blocks);
+    block_boxes_.assign(blocks, empty_box);
     group_boxes_.assign(groups, empty_box);
-    searched_.assign(bodies, {});
-    body_boxes_.assign(bodies, empty_box);
-    const Vec3d origin = scene.engine ? scene.engine->last_step().origin : Vec3d{0, 0, 0};
-    std::size_t float_place = 0, block_place = 0, group_place = 0;
-    for (std::size_t b = 0; b < bodies; ++b) {
+    float* packed = packed_.data();
+    Box *boxes = block_boxes_.data(), *around = group_boxes_.data();
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+        if (!previous[b].data) continue;
         const Body& body = scene.bodies[b];
-        Searched& out = searched_[b];
-        out.vertex_count = body.vertex_count;
-        if (scene.engine) {
-            const fast::StepBody& of = scene.engine->last_step().of[b];
-            out.at = of.positions;
-            out.blocks = {scene.engine->boxes().blocks.data() + of.first_block,
-                          scene.engine->boxes().groups.data() + of.first_group};
-            out.first_of_block = of.tiles->block_first.data();
-            out.block_count = of.tiles->block_count();
-            out.box = scene.engine->boxes().bodies[b];
-        } else {
-            out.at = packed_.data() + float_place;
-            pack(body.positions, origin, body.vertex_count, float_place);
+        check_previous(body, previous[b]);
+        fast::round_positions(previous[b], scene.origin, 0, body.vertex_count, packed);
+        SearchedBody& out = bodies_[b];
+        out.before = packed;
+        out.blocks = {boxes, around};
+        out.box = empty_box;
+        for (std::uint32_t block = 0; block < out.block_count(); ++block) {
+            for (std::uint32_t v = out.first_of_block[block]; v < out.first_of_block[block + 1]; ++v)
+                add(boxes[block], out.vertex_box(v));
+            add(around[block / fast::group_blocks], boxes[block]);
+            add(out.box, boxes[block]);
         }
-        if (moves(b)) {
-            Body moving = body;
-            moving.positions = previous[b];
-            if (const std::uint32_t vertex = first_bad_vertex(moving); vertex != VOX_NONE)
-                throw MeshError(
-                    bad_position(moving, vertex), body,
-                    format(", vertex %u: a coordinate of the previous position is %s", vertex,
-                           bad_position(moving, vertex) == VOX_ERROR_LIMIT ? "too large" : "not finite"),
-                    vertex);
-            out.before = packed_.data() + float_place;
-            pack(previous[b], origin, body.vertex_count, float_place);
-        }
-        if (!scene.engine || moves(b)) {
-            Box* boxes = block_boxes_.data() + block_place;
-            Box* around = group_boxes_.data() + group_place;
-            out.blocks = {boxes, around};
-            if (!scene.engine) out.block_count = blocks_of(scene, b);
-            block_place += out.block_count;
-            group_place += groups_of(out.block_count);
-            out.box = empty_box;
-            for (std::uint32_t block = 0; block < out.block_count; ++block) {
-                boxes[block] = empty_box;
-                for (std::uint32_t v = out.begin_of(block); v < out.end_of(block); ++v)
-                    add(boxes[block], out.vertex_box(v));
-                add(around[block / fast::group_blocks], boxes[block]);
-                add(out.box, boxes[block]);
-            }
-        }
-        if (is_empty(out.box)) continue;
-        if (margin > 0) out.grow = growth(out.box, margin);
-        body_boxes_[b] = grown(out.box, out.grow);
+        packed += 3 * std::size_t{body.vertex_count};
+        boxes += out.block_count();
+        around += groups_of(out.block_count());
     }
 }
 
-// ---- which tiles ----------------------------------------------------------------------------------
-
-const SearchedSurface& VertexFaceSearch::surface_of(const Scene& scene, std::uint32_t body) {
-    const vox_body mesh = scene.bodies[body].mesh_id;
-    auto place = std::lower_bound(surfaces_.begin(), surfaces_.end(), mesh,
-                                  [](const Kept& kept, vox_body id) { return kept.mesh < id; });
-    if (place == surfaces_.end() || place->mesh != mesh || place->version != scene.versions[body]) {
-        Kept made{mesh, scene.versions[body], SearchedSurface(memory())};
-        make_surface_features(*scene.topologies[body], scene.bodies[body].positions,
-                              scene.engine ? scene.engine->last_step().of[body].tiles : nullptr,
-                              made.surface.features);
-        order_faces(scene.bodies[body].tets, made.surface);
-        if (place == surfaces_.end() || place->mesh != mesh)
-            place = surfaces_.insert(place, std::move(made));
-        else
-            *place = std::move(made);
-    }
-    return place->surface;
-}
-
-void VertexFaceSearch::search(const Scene& scene, NearFacesVisitor& visitor) {
-    workers_.grow(scene.workers->count());
+void VertexFaceSearch::find_pairs(const StepScene& scene, const fast::PairRules& rules) {
+    body_boxes_.clear();
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+        body_boxes_.push_back(is_empty(bodies_[b].box) ? empty_box : grown(bodies_[b].box, bodies_[b].grow));
+    fast::find_pairs(body_boxes_, rules, pair_buffers_, pairs_);
     erase_if(pairs_, [&](const fast::Pair& pair) { return scene.topologies[pair.b]->triangles.empty(); });
-    prepare_surfaces(scene);
-    make_tile_boxes(scene);
-    const auto is_large = [&](const fast::Pair& pair) {
-        return searched_[pair.b].surface->features.tiles.size() >= near_small_body;
-    };
-    scene.workers->for_ranges(pairs_.size(), near_task_pairs,
-                              [&](std::size_t begin, std::size_t end, std::uint32_t w) {
-                                  for (std::size_t i = begin; i < end; ++i) {
-                                      Worker& lists = workers_[w];
-                                      if (!is_large(pairs_[i]) && list(pairs_[i], visitor, lists))
-                                          search_tiles(pairs_[i], lists, 0, lists.tiles.size(), visitor, w);
-                                  }
-                              });
+}
+
+void VertexFaceSearch::search(const StepScene& scene, NearFacesVisitor& visitor) {
     for (const fast::Pair& pair : pairs_) {
-        Worker& lists = workers_[0];
-        if (!is_large(pair) || !list(pair, visitor, lists)) continue;
-        // Each piece finds its own closest faces, so their number decides how many are found. It must not
-        // depend on how the pieces are shared.
-        const std::size_t tiles = lists.tiles.size(), workers = scene.workers->count();
-        const std::size_t pieces =
-            workers == 1 ? 1 : std::min((tiles - 1) / near_task_searches + 1, 4 * workers);
-        scene.workers->for_ranges(pieces, 1, [&](std::size_t begin, std::size_t end, std::uint32_t w) {
-            for (std::size_t i = begin; i < end; ++i)
-                search_tiles(pair, lists, i * tiles / pieces, (i + 1) * tiles / pieces, visitor, w);
-        });
+        Box reached = grown(bodies_[pair.a].box, bodies_[pair.a].grow + bodies_[pair.b].grow);
+        intersect(reached, bodies_[pair.b].box);
+        bodies_.reach(pair.b, reached);
     }
+    bodies_.make_boxes(scene, kept_);
+    workers_.grow(scene.workers->count());
+    join_pairs(
+        std::span<const fast::Pair>(pairs_), workers_, *scene.workers,
+        [&](const fast::Pair& pair) { return bodies_[pair.b].tile_count(); },
+        [&](const fast::Pair& pair, Worker& lists) { return list(pair, visitor, lists); },
+        [&](const fast::Pair& pair, const Worker& lists, std::size_t begin, std::size_t end,
+            std::uint32_t w) { search_tiles(pair, lists, begin, end, visitor, w); });
     workers_.level();
-}
-
-// The surfaces of the bodies that are reached, and room for the boxes of their tiles.
-void VertexFaceSearch::prepare_surfaces(const Scene& scene) {
-    for (const fast::Pair& pair : pairs_) {
-        (void)surface_of(scene, pair.b); // which may move those of others
-        Box reached = grown(searched_[pair.a].box, searched_[pair.a].grow + searched_[pair.b].grow);
-        intersect(reached, searched_[pair.b].box);
-        add(searched_[pair.b].reached, reached);
-    }
-    pieces_.clear();
-    std::size_t tiles = 0;
-    for (const fast::Pair& pair : pairs_) {
-        Searched& body = searched_[pair.b];
-        if (body.surface) continue;
-        body.surface = &surface_of(scene, pair.b);
-        body.first_tile = static_cast<std::uint32_t>(tiles);
-        const auto count = static_cast<std::uint32_t>(body.surface->features.tiles.size());
-        for (std::uint32_t first = 0; first < count; first += near_small_body)
-            pieces_.push_back({pair.b, first, std::min<std::uint32_t>(first + near_small_body, count)});
-        tiles += count;
-    }
-    if (tile_boxes_.size() < tiles) tile_boxes_.resize(tiles);
-}
-
-// Of tiles that others may reach; the others get an empty box.
-void VertexFaceSearch::make_tile_boxes(const Scene& scene) {
-    constexpr std::size_t least = near_task_tiles / near_small_body;
-    scene.workers->for_ranges(pieces_.size(), least, [&](std::size_t begin, std::size_t end, std::uint32_t) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const TilePiece& piece = pieces_[i];
-            const Searched& body = searched_[piece.body];
-            const SurfaceFeatures& features = body.surface->features;
-            const auto box_of = [&](const SurfaceTile& tile) {
-                Box box = empty_box;
-                for (std::uint32_t v = 0; v < tile.vertex_count; ++v)
-                    add(box, body.vertex_box(features.vertices[tile.first_vertex + v]));
-                return box;
-            };
-            make_boxes_in(body.reached, features, body.blocks, piece.first, piece.last,
-                          &tile_boxes_[body.first_tile + piece.first], box_of);
-        }
-    });
 }
 
 // ---- which vertices and faces ---------------------------------------------------------------------
 
 // Tiles of b and vertices of a that are in reach of each other's bodies.
-bool VertexFaceSearch::list(const fast::Pair& pair, const NearFacesVisitor& visitor, Worker& worker) const {
-    const Searched &a = searched_[pair.a], &b = searched_[pair.b];
+std::size_t VertexFaceSearch::list(const fast::Pair& pair, const NearFacesVisitor& visitor,
+                                   Worker& worker) const {
+    const SearchedBody &a = bodies_[pair.a], &b = bodies_[pair.b];
     const float reach = a.grow + b.grow;
-    // Calls find(first, count) for some of many boxes at a time, and lists those of which it gives the bits.
-    const auto list_met = [](std::uint32_t count, auto& out, const auto& find) {
-        out.clear();
-        for (std::uint32_t first = 0; first < count; first += fast::most_boxes)
-            for (std::uint64_t met = find(first, std::min(fast::most_boxes, count - first)); met;
-                 met &= met - 1) {
-                reserve_growing(out, out.size() + 1);
-                out.push_back(first + static_cast<std::uint32_t>(std::countr_zero(met)));
-            }
-    };
+    const Box* const tile_boxes = bodies_.tile_boxes(pair.b);
     // The tiles first, as there are less of them.
-    const Box around_a = grown(a.box, reach);
-    const Box* tile_boxes = &tile_boxes_[b.first_tile];
-    list_met(static_cast<std::uint32_t>(b.surface->features.tiles.size()), worker.tiles,
-             [&](std::uint32_t first, std::uint32_t some) {
-                 return fast::find_overlaps(tile_boxes + first, some, around_a);
-             });
-    if (worker.tiles.empty()) return false;
+    list_overlaps(tile_boxes, b.tile_count(), grown(a.box, reach), worker.tiles);
+    if (worker.tiles.empty()) return 0;
     Box around_tiles = empty_box;
     for (const std::uint32_t tile : worker.tiles) add(around_tiles, tile_boxes[tile]);
     const Box region = grown(around_tiles, reach);
-    list_met(a.block_count, worker.blocks, [&](std::uint32_t first, std::uint32_t some) {
+    list_found(a.block_count(), worker.blocks, [&](std::uint32_t first, std::uint32_t some) {
         return fast::find_blocks(a.blocks.blocks + first, a.blocks.groups + first / fast::group_blocks, some,
                                  region);
     });
     worker.vertices.clear();
     for (const std::uint32_t block : worker.blocks) {
-        reserve_growing(worker.vertices, worker.vertices.size() + (a.end_of(block) - a.begin_of(block)));
-        for (std::uint32_t v = a.begin_of(block); v < a.end_of(block); ++v)
+        const std::uint32_t begin = a.first_of_block[block], end = a.first_of_block[block + 1];
+        reserve_growing(worker.vertices, worker.vertices.size() + (end - begin));
+        for (std::uint32_t v = begin; v < end; ++v)
             if (overlap(a.vertex_box(v), region)) worker.vertices.push_back(v);
     }
     visitor.leave_out(pair.a, pair.b, worker.vertices);
-    if (worker.vertices.empty()) return false;
+    if (worker.vertices.empty()) return 0;
     make_runs(a, worker);
     Box around_vertices = empty_box;
-    for (const Box& group : worker.groups) add(around_vertices, group);
+    for (const Box& group : worker.runs.groups) add(around_vertices, group);
     const Box reached = grown(around_vertices, reach);
     erase_if(worker.tiles, [&](std::uint32_t t) { return !overlap(tile_boxes[t], reached); });
-    return !worker.tiles.empty();
+    return worker.tiles.size();
 }
 
 // From the blocks and the vertices that are left of them.
-void VertexFaceSearch::make_runs(const Searched& body, Worker& worker) const {
+void VertexFaceSearch::make_runs(const SearchedBody& body, Worker& worker) const {
     worker.first_of_run.clear();
     worker.runs.clear();
-    worker.groups.clear();
     const Array<std::uint32_t>& vertices = worker.vertices;
     auto block = worker.blocks.begin();
     for (std::uint32_t i = 0; i < vertices.size();) {
-        while (body.end_of(*block) <= vertices[i]) ++block;
+        while (body.first_of_block[*block + 1] <= vertices[i]) ++block;
+        const std::uint32_t end = body.first_of_block[*block + 1];
         reserve_growing(worker.first_of_run, worker.first_of_run.size() + 2);
         worker.first_of_run.push_back(i);
         Box run = empty_box;
-        for (const std::uint32_t end = body.end_of(*block); i < vertices.size() && vertices[i] < end; ++i)
-            add(run, body.vertex_box(vertices[i]));
-        if (worker.runs.size() % near_group_size == 0) {
-            reserve_growing(worker.groups, worker.groups.size() + 1);
-            worker.groups.push_back(empty_box);
-        }
-        add(worker.groups.back(), run);
-        reserve_growing(worker.runs, worker.runs.size() + 1);
+        for (; i < vertices.size() && vertices[i] < end; ++i) add(run, body.vertex_box(vertices[i]));
         worker.runs.push_back(run);
     }
-    worker.first_of_run.push_back(static_cast<std::uint32_t>(worker.vertices.size()));
-}
-
-void VertexFaceSearch::load(const Searched& body, const SurfaceTile& tile, float reach,
-                            FaceBoxes& out) const {
-    const SurfaceFeatures& features = body.surface->features;
-    std::array<Box, SurfaceTile::most_vertices> points;
-    for (std::uint32_t p = 0; p < tile.vertex_count; ++p)
-        points[p] = body.vertex_box(features.vertices[tile.first_vertex + p]);
-    for (std::uint32_t f = 0; f < tile.face_count; ++f) {
-        const auto& [u, v, w] = features.faces[tile.first_face + f];
-        Box box = points[u];
-        add(box, points[v]);
-        add(box, points[w]);
-        out.set(f, grown(box, reach));
-    }
+    worker.first_of_run.push_back(static_cast<std::uint32_t>(vertices.size()));
 }
 
 // The tiles [begin, end) of the list against all of its vertices.
 void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Worker& lists, std::size_t begin,
                                     std::size_t end, NearFacesVisitor& visitor, std::uint32_t worker) const {
     constexpr std::uint32_t at_once = 64;
-    const Searched &a = searched_[pair.a], &b = searched_[pair.b];
-    const SurfaceFeatures& features = b.surface->features;
+    const SearchedBody &a = bodies_[pair.a], &b = bodies_[pair.b];
     const float reach = a.grow + b.grow;
     FaceBoxes faces;
     // Vertices in the box of a tile, by their places.
     std::array<std::uint32_t, at_once> places, met_faces;
     std::array<Box, at_once> boxes;
     std::array<NearFaces, at_once> near;
-    visitor.begin({pair.a, pair.b, lists.vertices, b.surface}, worker);
+    visitor.begin({pair.a, pair.b, lists.vertices, b.features}, worker);
     for (std::size_t i = begin; i < end; ++i) {
-        const SurfaceTile& tile = features.tiles[lists.tiles[i]];
-        const Box box = grown(tile_boxes_[b.first_tile + lists.tiles[i]], reach);
+        const SurfaceTile& tile = b.features->tiles[lists.tiles[i]];
+        const Box box = grown(bodies_.tile_boxes(pair.b)[lists.tiles[i]], reach);
         bool is_loaded = false;
         std::uint32_t count = 0;
         const auto compare = [&] {
-            if (!is_loaded) load(b, tile, reach, faces);
+            if (!is_loaded) {
+                TilePoints points;
+                load_points(b, tile, points);
+                load_faces(*b.features, tile, points, reach, faces);
+            }
             is_loaded = true;
             find_faces(boxes.data(), count, faces, tile.face_count, met_faces.data());
             std::size_t found = 0;
@@ -412,22 +217,14 @@ void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Worker& lists,
             if (found > 0) visitor.visit(tile, std::span(near).first(found), worker);
             count = 0;
         };
-        for (std::size_t group = 0; group < lists.groups.size(); ++group) {
-            if (!overlap(lists.groups[group], box)) continue;
-            const std::size_t first = group * near_group_size;
-            const auto some =
-                static_cast<std::uint32_t>(std::min<std::size_t>(near_group_size, lists.runs.size() - first));
-            std::uint64_t met = fast::find_overlaps(&lists.runs[first], some, box);
-            for (; met; met &= met - 1) {
-                const std::size_t run = first + static_cast<std::size_t>(std::countr_zero(met));
-                for (std::uint32_t k = lists.first_of_run[run]; k < lists.first_of_run[run + 1]; ++k) {
-                    places[count] = k;
-                    boxes[count] = a.vertex_box(lists.vertices[k]);
-                    count += overlap(boxes[count], box);
-                    if (count == at_once) compare();
-                }
+        lists.runs.for_overlaps(box, [&](std::size_t run) {
+            for (std::uint32_t k = lists.first_of_run[run]; k < lists.first_of_run[run + 1]; ++k) {
+                places[count] = k;
+                boxes[count] = a.vertex_box(lists.vertices[k]);
+                count += overlap(boxes[count], box);
+                if (count == at_once) compare();
             }
-        }
+        });
         if (count > 0) compare();
     }
     visitor.end(worker);

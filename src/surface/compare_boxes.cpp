@@ -48,7 +48,7 @@ void Quantise(const float* HWY_RESTRICT boxes, const QuantisedTile& tile, Quanti
     }
 }
 
-// The same for one number.
+// Does so for one number.
 HWY_INLINE std::int16_t QuantiseNumber(float x, float low, float per_quantum) {
     const float q = (x - low) * per_quantum + quanta_below, above = q > 0 ? q : 0;
     return static_cast<std::int16_t>((above < most_quanta ? above : most_quanta) + units - units);

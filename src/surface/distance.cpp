@@ -26,7 +26,7 @@ struct CornerWeights {
     double a[3], b[3];
 };
 
-// Of two edges: where the lines are closest, if that is inside of both; else an end of one is closest. Where
+// Two edges: where the lines are closest, if that is inside of both; else an end of one is closest. Where
 // the edges are nearly parallel, rounding decides too much, and the best of all of them is taken.
 CornerWeights closest_weights(const Vec3d (&a)[2], const Vec3d (&b)[2]) noexcept {
     const Vec3d d = a[1] - a[0], e = b[1] - b[0], r = a[0] - b[0];
@@ -140,12 +140,12 @@ CloseFeatures closest(std::span<const Vec3d> a, std::span<const Vec3d> b) noexce
     return found;
 }
 
-// As in cull.cpp: the corners' projections on any axis w are apart by a gap, and so are the features by gap /
-// |w|. Rounding, with u = 2^-53, R the largest coordinate relative to the origin and |w|1 the sum of the
-// magnitudes of w's numbers: a coordinate is off by u R, a projection by another 3.01 u |w|1 R, a difference
-// of two by 10.1 u |w|1 R in all, and |w|1 < 1.74 |w|; so a gap is off by less than 18 u R |w|. The bound
-// that is subtracted has 32 u R, whose surplus covers its own rounding; that of gap / |w| is less than 4 u of
-// it.
+// Proof, as in cull.cpp: the corners' projections on any axis w are apart by a gap, and so are the features
+// by gap / |w|. Rounding, with u = 2^-53, R the largest coordinate relative to the origin and |w|1 the sum of
+// the magnitudes of w's numbers: a coordinate is off by u R, a projection by another 3.01 u |w|1 R, a
+// difference of two by 10.1 u |w|1 R in all, and |w|1 < 1.74 |w|; so a gap is off by less than 18 u R |w|.
+// The bound that is subtracted has 32 u R, whose surplus covers its own rounding; that of gap / |w| is less
+// than 4 u of it.
 template <int kA, int kB>
 double at_least(std::span<const Vec3d> a, std::span<const Vec3d> b) noexcept {
     const SeenPair<kA, kB> pair(a, b);

@@ -17,9 +17,9 @@ struct CloseFeatures {
     Vec3d point_a, point_b;            // rounded
 };
 
-// Of face and vertex, edge and edge, edge and vertex, vertex and vertex, in either order: 3 corners, 2 or 1.
-// `distance` is that of two points of the features up to rounding, so it is never below the exact one by more
-// than 2^-48 of the size of the pair.
+// Takes face and vertex, edge and edge, edge and vertex, vertex and vertex, in either order: 3 corners, 2
+// or 1. `distance` is that of two points of the features up to rounding, so it is never below the exact one
+// by more than 2^-48 of the size of the pair.
 CloseFeatures closest_features(std::span<const Vec3d> a, std::span<const Vec3d> b) noexcept;
 
 // A proven lower bound of the distance of a face and a vertex, or of two edges; 0 where there is none.

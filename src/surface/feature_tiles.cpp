@@ -1,9 +1,8 @@
-// Tiles by recursive median splits along the longest side of the middles' box (J. L. Bentley,
-// Multidimensional binary search trees used for associative searching, CACM 18, 1975), cut so that all but
-// the last are full.
+// Tiles of features whose middles lie close together, and that are of about the same size.
 #include "surface/feature_tiles.hpp"
 
 #include "base/array.hpp"
+#include "base/median_splits.hpp"
 #include "base/vectors.hpp"
 
 #include <algorithm>
@@ -15,13 +14,7 @@ namespace vox {
 
 namespace {
 
-// At most two floats below lower_side() for doubles, and the same as it for floats.
-float float_below(double at) noexcept { return number_before(static_cast<float>(at)); }
-
-struct Middle {
-    float at[3]; // as seen from the first vertex
-    std::uint32_t feature;
-};
+using Middle = SplitPoint<float>; // as seen from the first vertex
 
 // A feature that is more than 4 times as large as the median one gets into tiles of its size, within a factor
 // of 4: else it would blow up the box of a tile.
@@ -36,46 +29,35 @@ int size_class(float size, float median) noexcept {
 }
 
 void cut_into_tiles(std::span<Middle> items, Array<std::uint32_t>& features) {
-    if (items.size() > features_a_tile) {
-        float lo[3], hi[3];
-        for (int a = 0; a < 3; ++a) lo[a] = hi[a] = items[0].at[a];
-        for (const Middle& item : items)
-            for (int a = 0; a < 3; ++a) {
-                lo[a] = std::min(lo[a], item.at[a]);
-                hi[a] = std::max(hi[a], item.at[a]);
-            }
-        int axis = 0;
-        for (int a = 1; a < 3; ++a)
-            if (hi[a] - lo[a] > hi[axis] - lo[axis]) axis = a;
-        const std::size_t tiles = (items.size() + features_a_tile - 1) / features_a_tile;
-        const std::size_t left = tiles / 2 * features_a_tile;
-        // By number where middles are the same, so that the order never depends on how they are sorted.
-        std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(left), items.end(),
-                         [axis](const Middle& x, const Middle& y) {
-                             return x.at[axis] != y.at[axis] ? x.at[axis] < y.at[axis]
-                                                             : x.feature < y.feature;
-                         });
-        cut_into_tiles(items.first(left), features);
-        cut_into_tiles(items.subspan(left), features);
-        return;
-    }
-    const std::size_t first = features.size();
-    for (const Middle& item : items) features.push_back(item.feature);
-    std::sort(features.begin() + static_cast<std::ptrdiff_t>(first), features.end());
-    features.resize(first + features_a_tile, no_feature);
+    split_at_medians(items, features_a_tile, 1, [&](std::span<const Middle> tile) {
+        const std::size_t end = features.size() + features_a_tile;
+        for (const Middle& item : tile) features.push_back(item.index);
+        features.resize(end, no_feature);
+    });
 }
 
 } // namespace
 
+// Sides in floats: those of lower_side() for floats, and for doubles at most two floats below them. What is
+// rounded when the origin is subtracted is much less than a float.
 void make_vertex_boxes(const SurfaceMotion& motion, Array<Box>& out) {
     out.resize(motion.from.size());
+    const Vec3d o = motion.origin;
+    const auto make = [&](const auto& below) {
+        for (std::size_t v = 0; v < out.size(); ++v) {
+            const Vec3d p = motion.from[v], q = motion.to[v];
+            const Vec3d lo = min(p, q), hi = max(p, q);
+            out[v] = {{below(lo.x, o.x), below(lo.y, o.y), below(lo.z, o.z), 0},
+                      {-below(-hi.x, -o.x), -below(-hi.y, -o.y), -below(-hi.z, -o.z), 0}};
+        }
+    };
     const double r = motion.radius;
-    for (std::size_t v = 0; v < out.size(); ++v) {
-        const Vec3d p = motion.from[v], q = motion.to[v];
-        const Vec3d lo = min(p, q), hi = max(p, q);
-        out[v] = {{float_below(lo.x - r), float_below(lo.y - r), float_below(lo.z - r), 0},
-                  {-float_below(-hi.x - r), -float_below(-hi.y - r), -float_below(-hi.z - r), 0}};
-    }
+    if (o.x == 0 && o.y == 0 && o.z == 0)
+        make([r](double at, double) { return number_before(static_cast<float>(at - r)); });
+    else
+        make([r](double at, double origin) {
+            return number_before(static_cast<float>(lower_side(at, r, true) - origin));
+        });
 }
 
 void make_feature_tiles(const SurfaceTopology& topology, vox_feature feature, std::span<const Vec3d> from,

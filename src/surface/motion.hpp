@@ -19,6 +19,9 @@ struct SurfaceMotion {
     double radius = 0;
     bool doubles = false; // the caller's format; else every coordinate is a float
     bool cull = false;    // leave out pairs that stay further apart than 2 * radius
+    // Far from zero, floats are far apart. There they are made of what is left of doubles without this point
+    // in the middle of all.
+    Vec3d origin{};
 
     bool moves() const noexcept { return from.data() != to.data(); }
 };
@@ -44,28 +47,19 @@ inline double upper_side(double at, double radius, bool doubles) noexcept {
     return -lower_side(-at, radius, doubles);
 }
 
-// The box of a feature in motion, without the radius.
-struct MovingBox {
-    MovingBox(const SurfaceMotion& motion, std::span<const std::uint32_t> corners) noexcept
+// The box of a feature in motion, as vox_motion.radius has it.
+struct ExactBox {
+    ExactBox() noexcept = default;
+    ExactBox(const SurfaceMotion& motion, std::span<const std::uint32_t> corners) noexcept
         : lo(motion.from[corners[0]]), hi(lo) {
         for (const std::uint32_t v : corners) {
             lo = min(lo, min(motion.from[v], motion.to[v]));
             hi = max(hi, max(motion.from[v], motion.to[v]));
         }
-    }
-
-    Vec3d lo, hi;
-};
-
-// The same as vox_motion.radius has it.
-struct ExactBox {
-    ExactBox() noexcept = default;
-    ExactBox(const SurfaceMotion& motion, std::span<const std::uint32_t> corners) noexcept {
-        const MovingBox box(motion, corners);
         const double r = motion.radius;
         const bool d = motion.doubles;
-        lo = {lower_side(box.lo.x, r, d), lower_side(box.lo.y, r, d), lower_side(box.lo.z, r, d)};
-        hi = {upper_side(box.hi.x, r, d), upper_side(box.hi.y, r, d), upper_side(box.hi.z, r, d)};
+        lo = {lower_side(lo.x, r, d), lower_side(lo.y, r, d), lower_side(lo.z, r, d)};
+        hi = {upper_side(hi.x, r, d), upper_side(hi.y, r, d), upper_side(hi.z, r, d)};
     }
     bool overlaps(const ExactBox& other) const noexcept {
         return lo.x <= other.hi.x && lo.y <= other.hi.y && lo.z <= other.hi.z && other.lo.x <= hi.x &&

@@ -49,8 +49,6 @@ struct PairSearch::TileSearch {
     // Where floats that bound boxes of doubles differ by more, these have their order. 0: the boxes are
     // floats.
     float close_by = 0;
-    bool by_doubles = false; // quanta are made from doubles, with this origin and scale
-    Vec3d low, per_quantum;
 };
 
 PairSearch::PairSearch(std::pmr::memory_resource* memory) noexcept
@@ -169,7 +167,8 @@ void PairSearch::cull_found(const Task& task, const TileSearch& tile, Worker& wo
     worker.count = static_cast<std::size_t>(end - found.begin());
 }
 
-// As long as `count`. What was there is lost where there is no room, and else need not be set to 0 again.
+// Makes it as long as `count`. What was there is lost where there is no room, and else need not be set to 0
+// again.
 void make_room(Array<std::uint32_t>& vector, std::uint64_t count) {
     if (count > vector.capacity()) {
         vector.clear();
@@ -177,95 +176,6 @@ void make_room(Array<std::uint32_t>& vector, std::uint64_t count) {
         reserve_exactly(vector, count + count / 16);
     }
     vector.resize(static_cast<std::size_t>(count));
-}
-
-// The boxes of a tile in quanta, from doubles. What rounds the boxes outward in the caller's format is left
-// out; they reach further by a whole quantum instead, so what is apart in quanta is apart. Boxes that reach
-// into each other by 6 quanta do so by more than 3 without it and without the rounding to quanta.
-void quantise_doubles(const SurfaceMotion& motion, const FeatureTiles& tiles, std::uint32_t tile,
-                      const Vec3d& low, const Vec3d& per_quantum, QuantisedSides& out) noexcept {
-    const auto in_quanta = [](double x, double low_x, double per, double outward) {
-        const double q = (x - low_x) * per + double{quanta_below} + outward;
-        return static_cast<std::int16_t>(std::clamp(q, 0.0, double{most_quanta}) + 0.5);
-    };
-    const double r = motion.radius;
-    for (std::uint32_t lane = 0; lane < features_a_tile; ++lane) {
-        const std::uint32_t slot = tile * features_a_tile + lane;
-        if (tiles.features[slot] == no_feature) {
-            for (auto& side : out) side[lane] = 0; // any number
-            continue;
-        }
-        const MovingBox box(motion, tiles.corners_at(slot));
-        out[0][lane] = in_quanta(box.lo.x - r, low.x, per_quantum.x, -1);
-        out[1][lane] = in_quanta(box.lo.y - r, low.y, per_quantum.y, -1);
-        out[2][lane] = in_quanta(box.lo.z - r, low.z, per_quantum.z, -1);
-        out[3][lane] = in_quanta(box.hi.x + r, low.x, per_quantum.x, 1);
-        out[4][lane] = in_quanta(box.hi.y + r, low.y, per_quantum.y, 1);
-        out[5][lane] = in_quanta(box.hi.z + r, low.z, per_quantum.z, 1);
-    }
-}
-
-void PairSearch::quantise(const Task& task, std::uint32_t t, TileSearch& tile, Worker& worker) noexcept {
-    const Box& box = task.a.tile_boxes[t];
-    float largest = 0;
-    for (int i = 0; i < 3; ++i) largest = std::max({largest, std::abs(box.lo[i]), std::abs(box.hi[i])});
-    // Each side of a box of doubles is less than 2 floats inside the float that bounds it.
-    if (task.motion.doubles) tile.close_by = largest * 0x1p-20f + 0x1p-140f;
-    task.quantise_tile(task.a.boxes_of(t), box.lo, box.hi, tile.close_by, worker.quantised);
-    if (!are_floats_coarse(task, t, tile)) return;
-    // Quanta of doubles cost more. They are worth it where floats leave much open, and doubles do not.
-    const auto count_open = [&] {
-        const QuantisedTile& own = worker.quantised;
-        const std::size_t found = task.compare(own, tile.asked, own.sides, tile.asked, worker.overlaps);
-        std::uint32_t open = 0;
-        for (std::size_t i = 0; i < found; ++i) open += bit_count(worker.overlaps.open[i]);
-        return open;
-    };
-    constexpr std::uint32_t much = features_a_tile * features_a_tile / 4;
-    const std::uint32_t by_floats = count_open();
-    if (by_floats < much) return;
-    quantise_by_doubles(task, t, tile, worker.quantised);
-    tile.by_doubles = count_open() < by_floats / 4;
-    if (!tile.by_doubles)
-        task.quantise_tile(task.a.boxes_of(t), box.lo, box.hi, tile.close_by, worker.quantised);
-}
-
-// Whether boxes of the tile are short for floats so far from the origin, on average, along some axis.
-bool PairSearch::are_floats_coarse(const Task& task, std::uint32_t t, const TileSearch& tile) noexcept {
-    if (!task.motion.doubles || !(tile.close_by < 0x1p80f)) return false; // nor so far that floats overflow
-    const float* const boxes = task.a.boxes_of(t);
-    const auto count = static_cast<float>(bit_count(tile.asked));
-    for (std::size_t a = 0; a < 3; ++a) {
-        float sum = 0;
-        for (std::uint64_t lanes = tile.asked; lanes != 0; lanes &= lanes - 1)
-            sum += boxes[(a + 3) * features_a_tile + lowest_lane(lanes)] -
-                   boxes[a * features_a_tile + lowest_lane(lanes)];
-        if (sum < 4 * tile.close_by * count) return true;
-    }
-    return false;
-}
-
-void PairSearch::quantise_by_doubles(const Task& task, std::uint32_t t, TileSearch& tile,
-                                     QuantisedTile& out) noexcept {
-    const Box& box = task.a.tile_boxes[t];
-    const auto scale = [&](int axis, double& low, double& per_quantum) {
-        low = box.lo[axis];
-        // A side is at least 2 floats, so a quantum is many doubles.
-        per_quantum = double{quanta_a_side} / (double{box.hi[axis]} - box.lo[axis]);
-    };
-    scale(0, tile.low.x, tile.per_quantum.x);
-    scale(1, tile.low.y, tile.per_quantum.y);
-    scale(2, tile.low.z, tile.per_quantum.z);
-    quantise_doubles(task.motion, task.a, t, tile.low, tile.per_quantum, out.sides);
-    out.always_open = 0;
-    for (std::size_t a = 0; a < 3; ++a) {
-        out.lowest[a] = static_cast<std::int16_t>(most_quanta);
-        out.highest[a] = 0;
-        for (std::uint64_t lanes = tile.asked; lanes != 0; lanes &= lanes - 1) {
-            out.lowest[a] = std::min(out.lowest[a], out.sides[a][lowest_lane(lanes)]);
-            out.highest[a] = std::max(out.highest[a], out.sides[a + 3][lowest_lane(lanes)]);
-        }
-    }
 }
 
 // Those of the lanes whose boxes overlap that of a slot of b: by the floats that bound them, and where these
@@ -314,10 +224,7 @@ void PairSearch::add_near(const Task& task, const TileSearch& tile, std::uint32_
         wanted = wanted >> skipped << skipped;
     }
     TileOverlaps& overlaps = worker.overlaps;
-    if (tile.by_doubles)
-        quantise_doubles(task.motion, b, other, tile.low, tile.per_quantum, worker.other);
-    else
-        task.quantise_sides(b.boxes_of(other), worker.quantised, worker.other);
+    task.quantise_sides(b.boxes_of(other), worker.quantised, worker.other);
     const std::size_t found = task.compare(worker.quantised, tile.asked, worker.other, wanted, overlaps);
     worker.boxes_compared += overlaps.compared;
     std::size_t count = worker.count;
@@ -384,7 +291,12 @@ void PairSearch::search_tile(const Task& task, std::uint32_t t, Worker& worker) 
     if (tile.asked == 0) return;
     tile.lowest = features[lowest_lane(tile.asked)];
     const Box& box = a.tile_boxes[t];
-    quantise(task, t, tile, worker);
+    if (task.motion.doubles) { // each side of a box is less than 2 floats inside the float that bounds it
+        float largest = 0;
+        for (int i = 0; i < 3; ++i) largest = std::max({largest, std::abs(box.lo[i]), std::abs(box.hi[i])});
+        tile.close_by = largest * 0x1p-20f + 0x1p-140f;
+    }
+    task.quantise_tile(a.boxes_of(t), box.lo, box.hi, tile.close_by, worker.quantised);
     worker.has_exact = 0;
 
     const auto for_each_corner = [&](auto&& visit) {

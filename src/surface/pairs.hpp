@@ -82,7 +82,7 @@ private:
         Array<Found> near, found;
         std::size_t count = 0;
         Array<std::uint64_t> around; // of each vertex: the lanes that it is a corner of
-        // The same of all vertices that share a remainder.
+        // Those of all vertices that share a remainder.
         std::array<std::uint64_t, folded_vertices> around_folded;
         // By all tiles so far: for each 64 partners, those of each lane as bits; and the partners.
         Array<std::uint64_t> kept;
@@ -104,10 +104,6 @@ private:
 
     struct TileSearch;
 
-    static void quantise(const Task& task, std::uint32_t t, TileSearch& tile, Worker& worker) noexcept;
-    static bool are_floats_coarse(const Task& task, std::uint32_t t, const TileSearch& tile) noexcept;
-    static void quantise_by_doubles(const Task& task, std::uint32_t t, TileSearch& tile,
-                                    QuantisedTile& out) noexcept;
     static std::uint64_t overlapping(const Task& task, const TileSearch& tile, std::uint64_t lanes,
                                      std::uint32_t slot, Worker& worker) noexcept;
     template <unsigned Corners>

@@ -4,8 +4,6 @@
 #include "base/error.hpp"
 #include "base/llu.hpp"
 #include "mesh/check.hpp"
-#include "surface/contacts_in_time.hpp"
-#include "surface/crossings.hpp"
 #include "surface/suggest.hpp"
 
 #include <algorithm>
@@ -13,11 +11,30 @@
 
 using namespace vox;
 
+namespace {
+
+// The middle of positions, in coordinates where it is many sizes away from zero; else zero.
+Vec3d far_middle(std::span<const Vec3d> positions) noexcept {
+    constexpr double far = 16;
+    Vec3d lo = positions[0], hi = lo;
+    for (const Vec3d& p : positions) {
+        lo = min(lo, p);
+        hi = max(hi, p);
+    }
+    const auto middle = [](double low, double high) {
+        const double at = 0.5 * low + 0.5 * high;
+        return std::abs(at) > far * (high - low) ? at : 0;
+    };
+    return {middle(lo.x, hi.x), middle(lo.y, hi.y), middle(lo.z, hi.z)};
+}
+
+} // namespace
+
 vox_surface::vox_surface(const vox_surface_desc& desc, const MemoryShare& memory)
     : share_(memory), workers_(value_of(desc.tasks), desc.worker_count), topology_(desc, &*memory),
       cell_size_(desc.cell_size), positions_{Array<Vec3d>(&*memory), Array<Vec3d>(&*memory)},
       search_(&*memory), answer_(&*memory), candidates_(&*memory), crossings_(&*memory), impacts_(&*memory),
-      impacts_in_ranges_(&*memory), close_(&*memory) {}
+      proximities_(&*memory), clearances_(&*memory) {}
 
 void vox_surface::move(const vox_motion& motion) {
     const std::uint32_t count = topology_.vertex_count;
@@ -53,10 +70,11 @@ void vox_surface::move(const vox_motion& motion) {
     if (motion.to.data) copy(to, positions_[1]);
     motion_ = {positions_[0], motion.to.data ? positions_[1] : positions_[0], motion.radius, from.doubles,
                (motion.flags & VOX_MOTION_CULL) != 0};
+    if (from.doubles && count > 0) motion_.origin = far_middle(positions_[0]);
     has_motion_ = true;
     search_.forget_boxes();
     piece_ = {};
-    living_ = {};
+    answer_lives_ = crossings_.lives = impacts_.lives = proximities_.lives = false;
 }
 
 const SurfaceMotion& vox_surface::motion() const {
@@ -67,7 +85,7 @@ const SurfaceMotion& vox_surface::motion() const {
 
 SurfaceMotion vox_surface::at_end(double radius) const {
     const SurfaceMotion& moving = motion();
-    return {moving.to, moving.to, radius, moving.doubles, false};
+    return {moving.to, moving.to, radius, moving.doubles, false, moving.origin};
 }
 
 void vox_surface::set_cell_size(double cell_size) {
@@ -107,11 +125,11 @@ bool vox_surface::release_ended() noexcept {
         vector.shrink_to_fit();
         released = true;
     };
-    release(living_.pairs, answer_.offsets);
-    release(living_.pairs, answer_.partners);
-    release(living_.crossings, crossings_);
-    release(living_.impacts, impacts_);
-    if (!living_.proximities) released |= close_.release_found();
+    release(answer_lives_, answer_.offsets);
+    release(answer_lives_, answer_.partners);
+    release(crossings_.lives, crossings_.all);
+    release(impacts_.lives, impacts_.all);
+    release(proximities_.lives, proximities_.all);
     return released;
 }
 
@@ -145,7 +163,7 @@ const FeaturePairs& vox_surface::pairs(vox_feature a, vox_feature b, std::uint64
     const SurfaceMotion& moving = motion();
     const std::uint64_t all = topology_.count(a);
     if (first > all) refuse(format("first is %llu of %llu", llu(first), llu(all)));
-    answer(living_.pairs, [&] {
+    answer(answer_lives_, [&] {
         find_fitting(moving, a, b, static_cast<std::uint32_t>(first),
                      static_cast<std::uint32_t>(std::min(count, all - first)), answer_);
     });
@@ -167,15 +185,22 @@ vox_cell_size_result vox_surface::suggest_cell_size(vox_feature a, vox_feature b
     return answer(nothing_lives, [&] { return suggest_for_tiles(tiles_a, tiles_b, &*share_); });
 }
 
-std::span<const vox_crossing> vox_surface::crossings() {
-    const SurfaceMotion end = at_end(0);
-    answer(living_.crossings, [&] {
-        crossings_.clear();
-        for_pieces(end, VOX_FEATURE_EDGE, VOX_FEATURE_FACE, [&](const FeaturePairs& pairs) {
-            find_crossings(topology_, end.to, pairs, workers_, crossings_);
-        });
+// Calls add(Candidates, Answers) for all pairs of a motion.
+template <class T, class Add>
+std::span<const T> vox_surface::answer_all(Answers<T>& answers, const SurfaceMotion& motion, vox_feature a,
+                                           vox_feature b, Add&& add) {
+    answer(answers.lives, [&] {
+        answers.all.clear();
+        for_pieces(motion, a, b, [&](const Candidates& candidates) { add(candidates, answers); });
     });
-    return crossings_;
+    return answers.all;
+}
+
+std::span<const vox_crossing> vox_surface::crossings() {
+    return answer_all(crossings_, at_end(0), VOX_FEATURE_EDGE, VOX_FEATURE_FACE,
+                      [&](const Candidates& candidates, Answers<vox_crossing>& out) {
+                          add_crossings(candidates, workers_, out);
+                      });
 }
 
 namespace {
@@ -198,9 +223,9 @@ vox_safe_step vox_surface::safe_step(const ContactTimeRule& rule) {
         found.step = 1;
         for (const vox_feature a : {VOX_FEATURE_FACE, VOX_FEATURE_EDGE}) {
             const vox_feature b = a == VOX_FEATURE_FACE ? VOX_FEATURE_VERTEX : VOX_FEATURE_EDGE;
-            for_pieces(reach, a, b, [&](const FeaturePairs& pairs) {
-                found.pairs += pairs.offsets[pairs.count];
-                first_contact(topology_, reach, a, b, pairs, rule, workers_, found);
+            for_pieces(reach, a, b, [&](const Candidates& candidates) {
+                found.pairs += candidates.pairs.offsets[candidates.count()];
+                lower_safe_step(candidates, rule, workers_, found);
             });
         }
         return found;
@@ -208,23 +233,34 @@ vox_safe_step vox_surface::safe_step(const ContactTimeRule& rule) {
 }
 
 std::span<const vox_impact> vox_surface::impacts(vox_feature a, vox_feature b, const ContactTimeRule& rule) {
-    const SurfaceMotion reach = reaching(motion(), rule.distance);
-    answer(living_.impacts, [&] {
-        impacts_.clear();
-        for_pieces(reach, a, b, [&](const FeaturePairs& pairs) {
-            all_contacts(topology_, reach, a, b, pairs, rule, workers_, impacts_in_ranges_, impacts_);
-        });
-    });
-    return impacts_;
+    return answer_all(impacts_, reaching(motion(), rule.distance), a, b,
+                      [&](const Candidates& candidates, Answers<vox_impact>& out) {
+                          add_impacts(candidates, rule, workers_, out);
+                      });
 }
 
 std::span<const vox_proximity> vox_surface::proximities(vox_feature a, vox_feature b, double distance) {
-    return answer(living_.proximities, [&] { return close_.find(*this, a, b, distance); });
+    return answer_all(proximities_, at_end(proximity_radius(motion().to, distance)), a, b,
+                      [&](const Candidates& candidates, Answers<vox_proximity>& out) {
+                          add_proximities(candidates, distance, workers_, out);
+                      });
 }
 
 void vox_surface::clearances(double max_distance, double* out_distances) {
+    const SurfaceMotion still = at_end(max_distance);
     bool nothing_lives;
-    answer(nothing_lives, [&] { close_.clearance(*this, max_distance, out_distances); });
+    answer(nothing_lives, [&] {
+        clearances_.resize(topology_.vertex_count);
+        for (SharedLeast& of_vertex : clearances_)
+            of_vertex.number.store(max_distance, std::memory_order_relaxed);
+        for (const vox_feature a : {VOX_FEATURE_FACE, VOX_FEATURE_EDGE})
+            for_pieces(still, a, a == VOX_FEATURE_FACE ? VOX_FEATURE_VERTEX : VOX_FEATURE_EDGE,
+                       [&](const Candidates& candidates) {
+                           lower_clearances(candidates, max_distance, workers_, clearances_);
+                       });
+    });
+    for (std::uint32_t v = 0; v < topology_.vertex_count; ++v) // nothing can fail any more
+        out_distances[v] = clearances_[v].number.load(std::memory_order_relaxed);
 }
 
 vox_counter_view vox_surface::counters() const {

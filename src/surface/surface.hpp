@@ -5,9 +5,8 @@
 #include "base/array.hpp"
 #include "base/memory.hpp"
 #include "base/parallel.hpp"
-#include "surface/close.hpp"
+#include "surface/answers.hpp"
 #include "surface/contact_time.hpp"
-#include "surface/gathered.hpp"
 #include "surface/motion.hpp"
 #include "surface/pairs.hpp"
 #include "surface/topology.hpp"
@@ -19,7 +18,6 @@
 #include <cstdint>
 #include <memory_resource>
 #include <span>
-#include <utility>
 
 struct vox_surface {
 public:
@@ -39,7 +37,7 @@ public:
 
     void set_cell_size(double cell_size);
 
-    // Calls visit(FeaturePairs) for the partners of all features of kind a, as vox_surface_find_pairs finds
+    // Calls visit(Candidates) for the partners of all features of kind a, as vox_surface_find_pairs finds
     // them, for any motion of this surface, piece by piece. The buffers behind it are the surface's: one call
     // at a time.
     template <class Visit>
@@ -47,7 +45,7 @@ public:
         const std::uint32_t all = topology_.count(a);
         for (std::uint32_t first = 0; first < all; first += static_cast<std::uint32_t>(candidates_.count)) {
             find_fitting(motion, a, b, first, std::min(most_at_once_, all - first), candidates_);
-            visit(std::as_const(candidates_));
+            visit(vox::Candidates{topology_, motion, a, b, candidates_});
         }
     }
     // Those of features first, first + 1, ..., count of them or as many as fit into the byte budget, at least
@@ -63,9 +61,9 @@ public:
     std::span<const vox_proximity> proximities(vox_feature a, vox_feature b, double distance);
     // Throws as vox_surface_find_clearances.
     void clearances(double max_distance, double* out_distances);
-    // Of two kinds; lives until the next call or move().
+    // Those of two kinds; they live until the next call or move().
     std::span<const vox_impact> impacts(vox_feature a, vox_feature b, const vox::ContactTimeRule& rule);
-    // Of the end of the motion. Lives until the next call or move().
+    // Those at the end of the motion. They live until the next call or move().
     std::span<const vox_crossing> crossings();
 
     vox_counter_view counters() const;
@@ -77,7 +75,11 @@ private:
                       std::uint32_t count, vox::FeaturePairs& out);
     template <class Make>
     auto answer(bool& lives, Make&& make);
-    // Of answers that have ended, of which the memory is kept for the next ones. Whether there were any.
+    template <class T, class Add>
+    std::span<const T> answer_all(vox::Answers<T>& answers, const vox::SurfaceMotion& motion, vox_feature a,
+                                  vox_feature b, Add&& add);
+    // Gives back the memory of answers that have ended, kept for the next ones. Returns whether there was
+    // any.
     bool release_ended() noexcept;
 
     vox::MemoryShare share_; // first, as all else is released to it
@@ -92,18 +94,15 @@ private:
         vox_feature a, b;
         std::uint32_t first, count; // count 0: none
     };
-    struct Living { // answers, of which the caller may have a view
-        bool pairs, crossings, impacts, proximities;
-    };
-    Living living_{};
     Piece piece_{}; // the last answer, where not all of what was asked fitted
     vox::FeaturePairs answer_;
+    bool answer_lives_ = false;    // the caller may have a view of it
     vox::FeaturePairs candidates_; // of what is asked beside the pairs, a range at a time
     static constexpr std::uint32_t many_at_once = 1u << 20, few_at_once = 1u << 10;
     std::uint32_t most_at_once_ = many_at_once;
-    vox::Array<vox_crossing> crossings_;
-    vox::Array<vox_impact> impacts_;
-    vox::Gathered<vox_impact> impacts_in_ranges_;
-    vox::CloseSearch close_;
+    vox::Answers<vox_crossing> crossings_;
+    vox::Answers<vox_impact> impacts_;
+    vox::Answers<vox_proximity> proximities_;
+    vox::Array<vox::SharedLeast> clearances_;         // of each vertex
     mutable std::array<vox_counter, 7> counter_list_; // as they are when asked for
 };

@@ -64,7 +64,7 @@ END_TEST
 // Stages ask this of what they have found.
 START_TEST(other_contacts_of_a_step) {
     std::string text;
-    for (const char* const what : {"edge contacts", "margin contacts", "passages", "constraints"}) {
+    for (const char* const what : {"edges", "proximities", "impacts", "constraints"}) {
         check_contact_count(VOX_MAX_CONTACTS, what);
         const vox_result result =
             thrown_by([&] { check_contact_count(std::size_t{VOX_MAX_CONTACTS} + 1, what); }, text);

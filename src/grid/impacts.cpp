@@ -1,0 +1,117 @@
+#include "grid/impacts.hpp"
+
+#include "base/array.hpp"
+#include "base/bits.hpp"
+#include "base/room.hpp"
+#include "base/vectors.hpp"
+#include "exact/closest_point.hpp"
+#include "exact/facet_normal.hpp"
+#include "exact/predicates.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace vox {
+
+void Impacts::bind(vox_body mesh, const Positions& positions) {
+    const auto at = std::ranges::lower_bound(bound_, mesh, {}, &Bound::mesh);
+    const bool is_bound = at != bound_.end() && at->mesh == mesh;
+    if (!positions.data)
+        forget(mesh);
+    else if (is_bound)
+        at->positions = positions;
+    else
+        bound_.insert(at, {mesh, positions});
+}
+
+void Impacts::forget(vox_body mesh) noexcept {
+    erase_if(bound_, [mesh](const Bound& bound) { return bound.mesh == mesh; });
+}
+
+void Impacts::find(const StepScene& scene, VertexFaceSearch& search) {
+    previous_.assign(scene.bodies.size(), {});
+    for (std::size_t b = 0, i = 0; b < scene.bodies.size(); ++b) {
+        while (i < bound_.size() && bound_[i].mesh < scene.bodies[b].mesh_id) ++i;
+        if (i < bound_.size() && bound_[i].mesh == scene.bodies[b].mesh_id)
+            previous_[b] = bound_[i].positions;
+    }
+    begin_step(scene, 1);
+    search.find_meeting(scene, previous_, *this);
+    end_step("impacts");
+    list_impacts();
+}
+
+void Impacts::list_impacts() {
+    impacts_.clear();
+    reserve_sparingly(impacts_, meetings().size());
+    const auto body_of = [&](vox_body id) {
+        return static_cast<std::uint32_t>(std::ranges::lower_bound(scene().bodies, id, {}, &Body::mesh_id) -
+                                          scene().bodies.begin());
+    };
+    const std::span<const vox_contact> contacts = scene().contacts;
+    auto inside = contacts.begin();
+    for (const SurfaceMeeting& met : meetings()) {
+        inside =
+            std::lower_bound(inside, contacts.end(), place_of(met),
+                             [&](const vox_contact& c, const auto& sought) { return place_of(c) < sought; });
+        if (inside != contacts.end() && place_of(*inside) == place_of(met)) continue;
+        const std::uint32_t a = body_of(met.body_a), b = body_of(met.body_b);
+        const Vec3d p = position(a, met.vertex);
+        const Vec3d corner[3] = {position(b, met.face[0]), position(b, met.face[1]),
+                                 position(b, met.face[2])};
+        const Vec3d apex = position(b, scene().bodies[b].tets[met.tet].v[met.facet]);
+        std::uint64_t exact_tests = 0;
+        const int side = orientation(corner[0], corner[1], corner[2], p, exact_tests),
+                  inner = orientation(corner[0], corner[1], corner[2], apex, exact_tests);
+        if (side == 0 || side == -inner) continue;
+        const auto at = [&](const Vec3d& from, const Vec3d& to) { return from + met.time * (to - from); };
+        Vec3d face[3];
+        for (int i = 0; i < 3; ++i) face[i] = at(before(b, met.face[i]), corner[i]);
+        const SeenPoint seen = closest_seen_from(at(before(a, met.vertex), p), face[0], face[1], face[2]);
+        const std::array<double, 3> weights = normalised(seen.at.weight);
+        const Vec3d normal = facet_normal(corner[0], corner[1], corner[2], apex, p, seen.way);
+        impacts_.push_back({met,
+                            {weights[0], weights[1], weights[2]},
+                            {normal.x, normal.y, normal.z},
+                            std::min(dot(normal, p - corner[0]), 0.0)});
+    }
+    list_pairs(all(), pairs_);
+}
+
+Vec3d Impacts::before(std::uint32_t body, std::uint32_t vertex) const noexcept {
+    return previous_[body].data ? previous_[body].exact(vertex) : position(body, vertex);
+}
+
+void Impacts::leave_out(std::uint32_t a, std::uint32_t, Array<std::uint32_t>& vertices) const {
+    const auto removed = scene().bodies[a].removed_vertices;
+    erase_if(vertices, [&](std::uint32_t vertex) { return has_bit(removed, vertex); });
+}
+
+void Impacts::load(Worker& worker) const {
+    const SurfaceFeatures& surface = *worker.pair.surface;
+    const Positions &now = scene().bodies[worker.pair.b].positions, &previous = previous_[worker.pair.b];
+    load_positions(previous.data ? previous : now, surface, *worker.tile, worker.read.from.data());
+    load_positions(now, surface, *worker.tile, worker.read.to.data());
+}
+
+void Impacts::look(Worker& worker, const NearFaces& near) const {
+    const std::uint32_t vertex = worker.pair.vertices[near.place];
+    const Vec3d from = before(worker.pair.a, vertex), to = position(worker.pair.a, vertex);
+    for (std::uint32_t left = near.faces; left; left &= left - 1) {
+        const auto face = static_cast<std::uint32_t>(std::countr_zero(left));
+        const std::array<std::uint8_t, 3>& corners =
+            worker.pair.surface->faces[worker.tile->first_face + face];
+        SeenMotion motion;
+        for (std::size_t i = 0; i < 3; ++i) {
+            motion.from[i] = worker.read.from[corners[i]] - from;
+            motion.to[i] = worker.read.to[corners[i]] - to;
+        }
+        (void)offer(worker, near.place, face, meeting_time(motion, worker.of_vertex[near.place].most));
+    }
+}
+
+SurfaceMeeting Impacts::element_of(const Worker& worker, const Least& least) const {
+    return {vertex_face(worker, least), least.number};
+}
+
+} // namespace vox

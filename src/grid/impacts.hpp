@@ -1,0 +1,83 @@
+// Impacts: vertices that met the surface of another body on their way from their previous positions, and went
+// through it. For both engines alike.
+#pragma once
+
+#include "base/array.hpp"
+#include "base/counters.hpp"
+#include "base/scene.hpp"
+#include "exact/meeting_time.hpp"
+#include "grid/contact_pairs.hpp"
+#include "grid/least_faces.hpp"
+
+#include <vox/vox.h>
+
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+
+namespace vox {
+
+// A vertex met the surface of body_b while both moved from their previous positions to the present ones,
+// wherever it was before and is after. None is missed; a vertex that comes as close to a surface as rounding
+// errors are large may be reported as well. The face is the first that it met; the lowest of several at the
+// same time.
+struct SurfaceMeeting : VertexFace {
+    double time; // in [0, 1]; never too late
+};
+
+// A vertex that met a surface, is not inside, and is behind the plane of the face now: it went through.
+struct Impact : SurfaceMeeting {
+    double weights[3]; // of the point of the face where they met
+    double normal[3];  // of the face now, out of body_b
+    double gap;        // to its plane; not positive
+};
+
+struct NoNote {};
+struct MovingTile {
+    std::array<Vec3d, SurfaceTile::most_vertices> from, to;
+};
+
+class Impacts final : LeastFaces<SurfaceMeeting, NoNote, MovingTile> {
+public:
+    explicit Impacts(std::pmr::memory_resource* memory)
+        : LeastFaces(memory), bound_(memory), previous_(memory), impacts_(memory), pairs_(memory) {}
+
+    // The previous positions of a mesh; without data: it has none any more.
+    void bind(vox_body mesh, const Positions& positions);
+    void forget(vox_body mesh) noexcept;
+    bool any_bound() const noexcept { return !bound_.empty(); }
+
+    // Replaces meetings and impacts. If it throws, clear() is to be called.
+    void find(const StepScene& scene, VertexFaceSearch& search);
+    void count(Counters& counters) const noexcept { counters.impacts = meetings().size(); }
+
+    std::span<const SurfaceMeeting> meetings() const noexcept { return LeastFaces::all(); }
+    std::span<const Impact> all() const noexcept { return impacts_; } // in the order of meetings
+    std::span<const IdPair> pairs() const noexcept { return pairs_; } // of bodies with impacts, in order
+    void clear() noexcept {
+        LeastFaces::clear();
+        impacts_.clear();
+        pairs_.clear();
+    }
+
+private:
+    struct Bound {
+        vox_body mesh;
+        Positions positions;
+    };
+
+    void leave_out(std::uint32_t a, std::uint32_t b, Array<std::uint32_t>& vertices) const override;
+    void load(Worker& worker) const override;
+    void look(Worker& worker, const NearFaces& near) const override;
+    SurfaceMeeting element_of(const Worker& worker, const Least& least) const override;
+    Vec3d before(std::uint32_t body, std::uint32_t vertex) const noexcept;
+    void list_impacts();
+
+    Array<Bound> bound_;        // by mesh
+    Array<Positions> previous_; // of each body of a step
+    Array<Impact> impacts_;
+    Array<IdPair> pairs_;
+};
+
+} // namespace vox

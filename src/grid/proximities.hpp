@@ -1,0 +1,63 @@
+// Proximities: vertices outside of the tetrahedra of another body, but within a margin of its surface. Found
+// in every step of a grid with a margin, for both engines alike.
+#pragma once
+
+#include "base/array.hpp"
+#include "base/counters.hpp"
+#include "base/scene.hpp"
+#include "exact/closest_point.hpp"
+#include "grid/contact_pairs.hpp"
+#include "grid/least_faces.hpp"
+
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+
+namespace vox {
+
+// The face has the point of the surface of body_b that is closest to the vertex; of several at the same
+// distance that of the lowest (tet, facet), as in vox_locator_find_closest. Computed in double.
+struct Proximity : VertexFace {
+    double face_weights[3];
+    double distance;
+    double normal[3]; // from the closest point to the vertex; out of the tetrahedron if there is no distance
+};
+
+struct ExactTile {
+    struct Box3d {
+        Vec3d min, max;
+    };
+    std::array<Vec3d, SurfaceTile::most_vertices> points;
+    std::array<Box3d, SurfaceTile::most_faces> boxes;
+};
+
+class Proximities final : public LeastFaces<Proximity, SeenPoint, ExactTile> {
+public:
+    explicit Proximities(std::pmr::memory_resource* memory) : LeastFaces(memory), pairs_(memory) {}
+
+    void set_margin(double margin) noexcept { margin_ = margin; }
+
+    // Replaces the proximities. Those between bodies at rest are carried over. If it throws, clear() is to be
+    // called.
+    void find(const StepScene& scene, VertexFaceSearch& search);
+    void count(Counters& counters) const noexcept;
+
+    std::span<const IdPair> pairs() const noexcept { return pairs_; } // of bodies, in order
+    void clear() noexcept {
+        LeastFaces::clear();
+        pairs_.clear();
+    }
+
+private:
+    void leave_out(std::uint32_t a, std::uint32_t b, Array<std::uint32_t>& vertices) const override;
+    void load(Worker& worker) const override;
+    void look(Worker& worker, const NearFaces& near) const override;
+    Proximity element_of(const Worker& worker, const Least& least) const override;
+
+    double margin_ = 0;
+    std::size_t carried_ = 0;
+    Array<IdPair> pairs_;
+};
+
+} // namespace vox

@@ -1,0 +1,88 @@
+#include "grid/surface_search.hpp"
+
+namespace vox {
+
+void SearchedBodies::begin(const StepScene& scene) {
+    bodies_.clear();
+    bodies_.reserve(scene.bodies.size());
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+        const fast::StepBody& of = scene.of[b];
+        bodies_.push_back(
+            {of.positions,
+             nullptr,
+             {scene.boxes->blocks.data() + of.first_block, scene.boxes->groups.data() + of.first_group},
+             of.tiles->block_first,
+             scene.boxes->bodies[b],
+             0,
+             nullptr,
+             SearchedBody::not_reached,
+             empty_box,
+             empty_box});
+    }
+    reached_.clear();
+}
+
+void SearchedBodies::reach(std::uint32_t body, const Box& region) {
+    SearchedBody& of = bodies_[body];
+    if (of.first_tile == SearchedBody::not_reached) reached_.push_back(body);
+    of.first_tile = 0;
+    add(of.reached, region);
+}
+
+void SearchedBodies::make_boxes(const StepScene& scene, KeptFeatures& kept) {
+    for (const std::uint32_t b : reached_) (void)kept.of(scene, b); // which may move those of others
+    pieces_.clear();
+    std::uint32_t tiles = 0;
+    for (const std::uint32_t b : reached_) {
+        SearchedBody& body = bodies_[b];
+        body.features = &kept.of(scene, b);
+        body.first_tile = tiles;
+        const std::uint32_t count = body.tile_count();
+        for (std::uint32_t first = 0; first < count; first += tiles_of_small_body)
+            pieces_.push_back({b, first, std::min(first + tiles_of_small_body, count)});
+        tiles += count;
+    }
+    if (tile_boxes_.size() < tiles) tile_boxes_.resize(tiles);
+    constexpr std::size_t task_tiles = 128; // that are worth a task: 40 vertices each
+    scene.workers->for_ranges(pieces_.size(), task_tiles / tiles_of_small_body,
+                              [&](std::size_t begin, std::size_t end, std::uint32_t) {
+                                  for (std::size_t i = begin; i < end; ++i) make_boxes(pieces_[i]);
+                              });
+    for (const std::uint32_t b : reached_) {
+        Box around = empty_box;
+        for (const Box& box : std::span(tile_boxes(b), bodies_[b].tile_count()))
+            if (!is_empty(box)) add(around, box);
+        bodies_[b].tiles_box = around;
+    }
+}
+
+// Empty where the blocks of a tile, or those of its group, and so its faces, all lie to one side of where the
+// body is reached.
+void SearchedBodies::make_boxes(const Piece& piece) {
+    const SearchedBody& body = bodies_[piece.body];
+    const SurfaceFeatures& features = *body.features;
+    const auto is_beyond = [&](const Box* boxes, const Array<std::uint32_t>& which, std::uint32_t first,
+                               std::uint32_t count) {
+        return fast::common_sides(boxes, std::span(which).subspan(first, count), body.reached) != 0;
+    };
+    Box* out = &tile_boxes_[body.first_tile + piece.first];
+    static_assert(tiles_of_small_body % tiles_of_group == 0);
+    for (std::uint32_t begin = piece.first; begin < piece.last; begin += tiles_of_group) {
+        const std::uint32_t end = std::min(begin + tiles_of_group, piece.last);
+        const SurfaceGroup& group = features.groups[begin / tiles_of_group];
+        if (is_beyond(body.blocks.groups, features.block_groups, group.first, group.count)) {
+            out = std::fill_n(out, end - begin, empty_box);
+            continue;
+        }
+        for (std::uint32_t t = begin; t < end; ++t) {
+            const SurfaceTile& tile = features.tiles[t];
+            Box box = empty_box;
+            if (!is_beyond(body.blocks.blocks, features.blocks, tile.first_block, tile.block_count))
+                body.for_vertex_boxes(features.vertices.data() + tile.first_vertex, tile.vertex_count,
+                                      [&](std::uint32_t, const Box& of_vertex) { add(box, of_vertex); });
+            *out++ = box;
+        }
+    }
+}
+
+} // namespace vox
