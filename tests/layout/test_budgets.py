@@ -20,10 +20,9 @@ LINES_OF_FUNCTION = 80
 TYPES_OF_FOLDER = {"src/cell_size": 74}
 
 # What is still to be done, since 2026-11-28; nothing is to be added. A line that is no longer needed is a fault, too.
-LONG_FUNCTIONS = {"src/grid/constraints.cpp": 1, "src/grid/step.cpp": 1, "src/surface/pairs.cpp": 1,
-                  "src/cell_size/foreign/suggest.cpp": 1}
+LONG_FUNCTIONS = {"src/grid/constraints.cpp": 1, "src/surface/pairs.cpp": 1, "src/cell_size/foreign/suggest.cpp": 1}
 TYPES_OF_ONE_NAME = set()
-ENGINE_BRANCHES = {"src/grid/edge_contacts.cpp": 7, "src/grid/margin_contacts.cpp": 1, "src/grid/vertex_face_search.cpp": 9}
+ENGINE_BRANCHES = {}
 
 SOURCES = ("src", "tools", "bench")
 ENDINGS = (".cpp", ".hpp", ".h", ".c")
