@@ -5,6 +5,7 @@
 #include "mesh/highest_index.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cinttypes>
 #include <cmath>
 #include <cstddef>

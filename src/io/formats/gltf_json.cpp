@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <map>
 
 namespace vox::io::gltf {
 namespace {
@@ -101,6 +102,7 @@ private:
             path_ += "[]";
         } else if (!path_.ends_with(".attributes")) {
             members_.clear();
+            numbers_.clear();
         }
         return true;
     }
@@ -161,7 +163,7 @@ private:
         }
         if (!value.is_number()) expected("a number", value);
         name.resize(name.size() - 2);
-        if (members_[name].size() <= 16) members_[name].push_back(value.get<double>());
+        if (numbers_[name].size() <= 16) numbers_[name].push_back(value.get<double>());
     }
 
     // Extensions that change how something looks are no obstacle.
@@ -220,8 +222,9 @@ private:
             accessor.normalized = *normalized;
         }
         if (const json* const type = member("type")) {
-            accessor.is_vec3 = text(*type, "a type") == "VEC3";
-            accessor.is_scalar = *type == "SCALAR";
+            const std::string& name = text(*type, "a type");
+            accessor.is_vec3 = name == "VEC3";
+            accessor.is_scalar = name == "SCALAR";
         }
         accessor.sparse = member("sparse");
         demand(accessor.count != missing && accessor.type != 0, "an accessor with count and componentType");
@@ -250,7 +253,7 @@ private:
     json* member(const char* name) {
         member_ = name;
         const auto found = members_.find(name);
-        return found == members_.end() ? nullptr : &*found;
+        return found == members_.end() ? nullptr : &found->second;
     }
     void demand(bool found, const char* what) {
         member_ = nullptr;
@@ -279,12 +282,12 @@ private:
     }
     template <std::size_t size>
     bool numbers(const char* name, double (&out)[size]) {
-        const json* const array = member(name);
-        if (!array) return false;
-        if (array->size() != size)
-            fail(format("expected %zu numbers, found %zu%s", size, array->size(),
-                        array->size() > 16 ? " or more" : ""));
-        std::copy(array->begin(), array->end(), out);
+        if (!member(name)) return false;
+        const std::vector<double>& found = numbers_[name];
+        if (found.size() != size)
+            fail(format("expected %zu numbers, found %zu%s", size, found.size(),
+                        found.size() > 16 ? " or more" : ""));
+        std::copy(found.begin(), found.end(), out);
         return true;
     }
 
@@ -316,12 +319,15 @@ private:
     const std::size_t first_;
     Contents out_;
     bool has_version_ = false;
-    std::string path_;              // of the value at hand: .accessors[].count; "" for the whole
-    std::vector<Level> levels_;     // as many as the longest path has
-    std::uint64_t skipped_ = 0;     // how many objects and arrays that are skipped we are in
-    std::size_t object_ = 0;        // the length of the path of the object at hand
-    json members_ = json::object(); // of it, with at most one number more than a matrix in an array
-    const char* member_ = nullptr;  // the one at hand
+    std::string path_;          // of the value at hand: .accessors[].count; "" for the whole
+    std::vector<Level> levels_; // as many as the longest path has
+    std::uint64_t skipped_ = 0; // how many objects and arrays that are skipped we are in
+    std::size_t object_ = 0;    // the length of the path of the object at hand
+    // Its members, of arrays and objects only which they are: json allocates where it destroys full ones. And
+    // the numbers of its arrays, at most one more than a matrix has.
+    std::map<std::string, json> members_;
+    std::map<std::string, std::vector<double>> numbers_;
+    const char* member_ = nullptr; // the one at hand
 };
 
 } // namespace
