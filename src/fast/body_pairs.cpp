@@ -116,7 +116,7 @@ std::uint64_t count_tests(std::span<const Box> sorted, int axis, std::uint64_t m
         const float end = sorted[i].hi[axis];
         const auto after = sorted.subspan(i + 1);
         const auto next =
-            std::ranges::partition_point(after, [=](const Box& box) { return box.lo[axis] <= end; });
+            std::ranges::upper_bound(after, end, {}, [axis](const Box& box) { return box.lo[axis]; });
         tests += static_cast<std::uint64_t>(next - after.begin());
     }
     return tests;

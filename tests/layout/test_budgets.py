@@ -9,15 +9,15 @@ from repository import ROOT, files, text_of
 
 # Of C and C++ in src/, of all files elsewhere.
 LINES_OF_FOLDER = {
-    "src": 50990, "src/base": 3290, "src/exact": 1360, "src/mesh": 4300, "src/reference": 690, "src/fast": 5760,
-    "src/depth": 3640, "src/query": 1590, "src/cell_size": 6790, "src/surface": 3550, "src/grid": 6520, "src/api": 1250,
-    "src/io": 8720, "src/sim": 1220, "src/dist": 2260, "src/mpi": 190,
+    "src": 46660, "src/base": 3320, "src/exact": 1340, "src/mesh": 4040, "src/reference": 680, "src/fast": 5550,
+    "src/depth": 2930, "src/query": 1540, "src/cell_size": 5890, "src/surface": 3340, "src/grid": 5890, "src/api": 1160,
+    "src/io": 8020, "src/sim": 1130, "src/dist": 2070, "src/mpi": 180,
     "tools": 6220, "bench": 10000,
 }
 LINES_OF_DATA = {"docs": 3000}  # pictures and figures of the pages
 LINES_OF_FILE = 600  # of a source file in SOURCES
 LINES_OF_FUNCTION = 80
-TYPES_OF_FOLDER = {"src/cell_size": 74}
+TYPES_OF_FOLDER = {"src/cell_size": 67}
 
 # What is still to be done, since 2026-11-28; nothing is to be added. A line that is no longer needed is a fault, too.
 LONG_FUNCTIONS = {"src/grid/constraints.cpp": 1, "src/surface/pairs.cpp": 1, "src/cell_size/foreign/suggest.cpp": 1}
