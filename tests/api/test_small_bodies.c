@@ -40,7 +40,8 @@ START_TEST(bytes_of_a_body) {
     ck_assert_uint_eq(counters.vertices, 4 * count);
     ck_assert_uint_eq(counters.tets, count);
     ck_assert_uint_eq(counters.contacts, 0);
-    if (suite_engine == ENGINE_FAST) ck_assert_uint_le((counters.peak_bytes - before) / count, (4ull << 30) / 1000000);
+    if (suite_engine == ENGINE_FAST)
+        ck_assert_uint_le((counters.peak_bytes - before) / count, (4ull << 30) / 1000000);
     vox_grid_destroy(grid);
     free(positions);
 }

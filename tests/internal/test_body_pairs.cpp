@@ -215,6 +215,5 @@ END_TEST
 
 SUITE(body_pairs) {
     TCase* tests = add_case(suite, "body_pairs");
-    tcase_add_each(tests, pairs_are_all_that_overlap, pairs_are_those_that_are_wanted,
-                   scaffold, one_place);
+    tcase_add_each(tests, pairs_are_all_that_overlap, pairs_are_those_that_are_wanted, scaffold, one_place);
 }

@@ -465,7 +465,7 @@ START_TEST(the_least_legal_size) {
     ck_assert_double_lt(fitted(1.35, 0), 0.9);
     ck_assert_double_eq(fitted(1.35, 0.73), 0.73);
     ck_assert_double_gt(fitted(1.35, 0.72), 0.75); // no timing is there
-    ck_assert_double_gt(fitted(1.5, 0.73), 0.75); // there is more to gain
+    ck_assert_double_gt(fitted(1.5, 0.73), 0.75);  // there is more to gain
 }
 END_TEST
 
