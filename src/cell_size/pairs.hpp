@@ -190,7 +190,7 @@ private:
 template <class Add>
 void for_fours_around(const PlainBox& box, const SampleTree& held, double coarse, std::uint64_t& random,
                       Add&& add) {
-    FourBoxes some; // those that stand for others, until there are four
+    FourBoxes some{}; // those that stand for others, until there are four
     std::uint32_t ids[4];
     double numbers[4];
     std::size_t gathered = 0;

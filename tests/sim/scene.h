@@ -110,6 +110,7 @@ static inline uint64_t counter(const vox_sim* sim, const char* name) {
     for (uint64_t i = 0; i < view.count; ++i)
         if (strcmp(view.data[i].name, name) == 0) return view.data[i].value;
     ck_abort_msg("no counter %s", name);
+    return 0;
 }
 
 static inline void steps(vox_sim* sim, int count) {

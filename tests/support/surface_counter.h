@@ -13,6 +13,7 @@ static inline uint64_t surface_counter(const vox_surface* surface, const char* n
     for (uint64_t i = 0; i < view.count; ++i)
         if (strcmp(view.data[i].name, name) == 0) return view.data[i].value;
     ck_abort_msg("no counter %s", name);
+    return 0;
 }
 
 #endif
