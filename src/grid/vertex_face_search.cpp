@@ -8,6 +8,7 @@
 #include "fast/broad_phase.hpp"
 #include "fast/stream.hpp"
 #include "mesh/check.hpp"
+#include "mesh/topology.hpp"
 
 #include <algorithm>
 #include <array>

@@ -105,7 +105,9 @@ void add_proximities(const Candidates& candidates, double distance, Workers& wor
 
 void add_impacts(const Candidates& candidates, const ContactTimeRule& rule, Workers& workers,
                  Answers<vox_impact>& out) {
-    const auto& [topology, motion, a, b, pairs] = candidates;
+    const SurfaceTopology& topology = candidates.topology;
+    const SurfaceMotion& motion = candidates.motion;
+    const vox_feature a = candidates.a, b = candidates.b;
     const auto find = [&](std::uint32_t i, Array<vox_impact>& found) {
         candidates.for_partners(i, [&](std::uint32_t own, std::uint32_t partner) {
             const ContactTime contact =
@@ -118,7 +120,9 @@ void add_impacts(const Candidates& candidates, const ContactTimeRule& rule, Work
 
 void lower_safe_step(const Candidates& candidates, const ContactTimeRule& rule, Workers& workers,
                      vox_safe_step& found) {
-    const auto& [topology, motion, a, b, pairs] = candidates;
+    const SurfaceTopology& topology = candidates.topology;
+    const SurfaceMotion& motion = candidates.motion;
+    const vox_feature a = candidates.a, b = candidates.b;
     std::atomic<double> latest = found.step; // no later contact matters
     std::mutex mutex;
     const auto look_at = [&](std::uint32_t own, std::uint32_t partner) {
