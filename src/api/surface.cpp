@@ -28,7 +28,8 @@ void check_surface_desc(const vox_surface_desc& desc) {
     check_length(desc.cell_size, "cell_size");
 }
 
-void check_features(vox_feature a, vox_feature b) {
+// By reference: a value that is none of vox_feature must not be loaded before it is checked.
+void check_features(const vox_feature& a, const vox_feature& b) {
     check_enum(a, VOX_FEATURE_FACE, "a");
     check_enum(b, VOX_FEATURE_FACE, "b");
 }
