@@ -159,8 +159,8 @@ private:
     Output& out_;
     bool row_is_empty_ = true;
     const std::uint64_t vertices_ = mesh_.vertex_count;
-    const Kind kinds_[2] = {{{mesh_.triangles, 3 * mesh_.triangle_count}, 3, 2, 2},
-                            {{mesh_.tets, 4 * mesh_.tet_count}, 4, 4, 3}};
+    const Kind kinds_[2] = {{{mesh_.triangles, static_cast<std::size_t>(3 * mesh_.triangle_count)}, 3, 2, 2},
+                            {{mesh_.tets, static_cast<std::size_t>(4 * mesh_.tet_count)}, 4, 4, 3}};
     const std::uint64_t elements_ = kinds_[0].count() + kinds_[1].count();
 };
 
