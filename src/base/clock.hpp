@@ -11,4 +11,17 @@ inline std::uint64_t nanoseconds() noexcept {
     return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
 }
 
+// Adds the time from its construction to its end to a field of Profile.
+class Timed {
+public:
+    explicit Timed(std::uint64_t& sum) noexcept : sum_(sum), start_(nanoseconds()) {}
+    Timed(const Timed&) = delete;
+    Timed& operator=(const Timed&) = delete;
+    ~Timed() { sum_ += nanoseconds() - start_; }
+
+private:
+    std::uint64_t& sum_;
+    const std::uint64_t start_;
+};
+
 } // namespace vox

@@ -1,6 +1,7 @@
 // Plain views of the meshes of one step, on which the stages work.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -135,6 +136,12 @@ struct Body {
     std::uint32_t slot = in_array;
     std::uint64_t user_data = 0;
 };
+
+// The index of the body with this mesh, or of the next one.
+inline std::uint32_t body_index(std::span<const Body> bodies, std::uint32_t mesh_id) noexcept {
+    return static_cast<std::uint32_t>(std::ranges::lower_bound(bodies, mesh_id, {}, &Body::mesh_id) -
+                                      bodies.begin());
+}
 
 // A vertex in a closed tetrahedron, as an engine finds it. Bodies are indices into the scene; the canonical
 // order comes later (make_contacts).

@@ -57,9 +57,8 @@ struct StepScene {
     template <class Found, class Append>
     void carry(std::span<const Found> found, Append&& append) const {
         const auto rests = [&](std::uint32_t mesh) {
-            const auto body = std::ranges::lower_bound(bodies, mesh, {}, &Body::mesh_id);
-            return body != bodies.end() && body->mesh_id == mesh &&
-                   !of[static_cast<std::size_t>(body - bodies.begin())].moved;
+            const std::uint32_t body = body_index(bodies, mesh);
+            return body < bodies.size() && bodies[body].mesh_id == mesh && !of[body].moved;
         };
         const Found* last = nullptr;
         bool last_rests = false;

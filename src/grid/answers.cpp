@@ -24,7 +24,7 @@ vox_locator* vox_grid::take_locator() {
             throw MeshError(VOX_ERROR_INVALID_STATE, body, " has no positions: bind some before");
         mesh.check_format_once(id);
         if (is_left_out(body)) return;
-        if (!skips_bad_meshes_) check_finite(body); // else that has looked at it
+        if (!skips_bad_meshes()) check_finite(body); // else that has looked at it
         if (!slot.query_tets) {
             mesh.make_topology();
             mesh.make_tiles(); // the reference engine needs none
@@ -39,8 +39,28 @@ vox_locator* vox_grid::take_locator() {
 
 // ---- results --------------------------------------------------------------------------------------
 
+void vox_grid::find_constraints(vox_constraint_desc desc) {
+    check_enum(desc.method, VOX_DEPTH_METHOD_NONE, "desc.method");
+    if (desc.body_a == VOX_NULL_BODY && desc.body_b != VOX_NULL_BODY)
+        refuse(format("desc.body_b is %u, but there is no body_a", desc.body_b));
+    for (const vox_body body : {desc.body_a, desc.body_b})
+        if (body != VOX_NULL_BODY) (void)mesh(body); // throws for an id that names no body
+    if (!stepped_)
+        throw Error(VOX_ERROR_INVALID_STATE, "there are no results of a step: call vox_grid_step first");
+    make_constraints(desc, false, counters_, profile_);
+    list_counters();
+}
+
+vox_constraint_view vox_grid::constraints() const {
+    if (!constraints_->constraints().found())
+        throw Error(VOX_ERROR_INVALID_STATE,
+                    "no constraints were looked for since the last step: call vox_grid_find_constraints "
+                    "after it, or set VOX_GRID_CONSTRAINTS");
+    return constraints_->constraints().view();
+}
+
 vox_contact_view vox_grid::contacts() const noexcept {
-    return {contacts_.data(), contacts_.size(), interiors_.data()};
+    return {step_.contacts.data(), step_.contacts.size(), step_.interiors.data()};
 }
 
 vox_failure vox_grid::failure(std::uint32_t index) const noexcept {
@@ -51,14 +71,14 @@ vox_failure vox_grid::failure(std::uint32_t index) const noexcept {
     return none;
 }
 
-std::uint64_t vox_grid::hash() const noexcept { return hash_contacts(contacts_); }
+std::uint64_t vox_grid::hash() const noexcept { return hash_contacts(step_.contacts); }
 
 vox_grid_info vox_grid::info() const noexcept {
     return {.struct_size = sizeof(vox_grid_info),
-            .flags = flags(),
+            .flags = flags_,
             .epoch = epoch_,
             .cell_size = used_cell_size_,
-            .margin = margin_,
+            .margin = surfaces_.margin(),
             .bytes = memory_.bytes(),
             .peak_bytes = memory_.peak_bytes(),
             .step_ns = profile_.step_ns,

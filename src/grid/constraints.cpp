@@ -26,11 +26,6 @@ void write_vector(double (&out)[3], const Vec3d& v) noexcept {
     out[2] = v.z + 0.0;
 }
 
-std::uint32_t body_index(std::span<const Body> bodies, vox_body id) noexcept {
-    return static_cast<std::uint32_t>(std::ranges::lower_bound(bodies, id, {}, &Body::mesh_id) -
-                                      bodies.begin());
-}
-
 void write_pair(const Body& a, const Body& b, vox_constraint_kind kind, std::uint32_t pair,
                 vox_constraint& c) noexcept {
     c.body_a = a.mesh_id;

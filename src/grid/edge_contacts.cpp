@@ -31,7 +31,7 @@ const fast::CertifiedCells* certified_for(const StepScene& scene, const fast::Pa
 
 EdgeContacts::EdgeContacts(std::pmr::memory_resource* memory)
     : pairs_of_bodies_(memory), bodies_(memory), workers_(memory), found_(memory), keys_(memory),
-      contacts_(memory), pairs_(memory), depths_(memory) {}
+      entered_(memory), contacts_(memory), pairs_(memory), depths_(memory) {}
 
 void EdgeContacts::clear() noexcept {
     contacts_.clear();

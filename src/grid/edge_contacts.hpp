@@ -6,8 +6,8 @@
 #include "base/counters.hpp"
 #include "base/per_worker.hpp"
 #include "base/scene.hpp"
-#include "depth/closest.hpp"
 #include "depth/penetrations.hpp"
+#include "depth/surface_trees.hpp"
 #include "exact/crossing.hpp"
 #include "exact/predicates.hpp"
 #include "fast/step_scene.hpp"
@@ -28,12 +28,7 @@
 namespace vox {
 
 class Workers;
-
-// A mesh of edge contacts, as it is when their depths are asked for.
-struct EdgeBody {
-    Body body;
-    const depth::SurfaceTree* tree; // fitted; null where no edge of another mesh passes through the surface
-};
+struct ConstraintSources;
 
 // An edge of the surface of body_a and a face of the surface of body_b that have a point in common (a = b:
 // self-contact; then they have no vertex in common). The surface of a mesh consists of the facets of exactly
@@ -55,25 +50,24 @@ struct EdgeContact {
 
 class EdgeContacts {
 public:
+    static constexpr auto time = &Profile::edges_ns;
+    static constexpr vox_pair_state pair_state = VOX_PAIR_BEGAN;
+
     explicit EdgeContacts(std::pmr::memory_resource* memory);
 
-    // Replaces the contacts. Those between bodies at rest are carried over; the features of bodies that are
-    // near others are made. If it throws, clear() is to be called.
     void find(const StepScene& scene, KeptFeatures& kept);
     void count(Counters& counters);
 
-    std::span<const EdgeContact> all() const noexcept { return contacts_; }
-    // Whether the last step found what the one before had, all of it carried over.
-    bool unchanged() const noexcept { return unchanged_; }
-    // The meshes that have edge contacts, in order.
+    bool is_unchanged() const noexcept { return unchanged_; }
     std::span<const IdPair> pairs() const noexcept { return pairs_; }
 
-    // Finds the way out for each contact between `bodies`, which ascend. Throws what the memory throws; no
-    // depths are known then.
-    void prepare_depths(std::span<const EdgeBody> bodies, Workers& workers);
-    std::span<const Depth> depths() const noexcept { return depths_; } // after prepare_depths()
+    // Adds them to the sources, and where depths are asked for the way out of those of chosen pairs, by
+    // `trees`.
+    void add_to(ConstraintSources& sources, depth::SurfaceTrees& trees, Workers& workers);
 
     void clear() noexcept;
+    void forget(vox_body) noexcept {}
+    void forget_all() noexcept { clear(); }
 
 private:
     // What a search reads of a tile, in one place.
@@ -126,6 +120,8 @@ private:
     void decide(const StepScene& scene, const LoadedTile& edges, std::size_t edge, const LoadedTile& faces,
                 std::size_t face, Worker& worker);
     void put_in_order();
+    void fit_trees(const ConstraintSources& sources, depth::SurfaceTrees& trees, Workers& workers);
+    void find_depths(const ConstraintSources& sources, depth::SurfaceTrees& trees, Workers& workers);
 
     // One step.
     Array<fast::Pair> pairs_of_bodies_; // a <= b
@@ -134,6 +130,7 @@ private:
     std::mutex mutex_; // of found_
     Array<EdgeContact> found_;
     Array<Key> keys_;
+    Array<vox_body> entered_; // bodies whose trees are searched for depths
 
     // Results.
     Array<EdgeContact> contacts_;

@@ -1,12 +1,13 @@
 // The way out of edge contacts: from the middle of the part of an edge that is inside to the closest point of
 // the surface.
-#include "base/array.hpp"
 #include "grid/edge_contacts.hpp"
 
 #include "base/parallel.hpp"
 #include "base/vectors.hpp"
 #include "exact/facet_normal.hpp"
 #include "exact/predicates.hpp"
+#include "grid/constraints.hpp"
+#include "grid/pairs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,13 +15,6 @@
 namespace vox {
 
 namespace {
-
-// Null where it is not among them.
-const EdgeBody* edge_body_of(std::span<const EdgeBody> bodies, vox_body mesh) {
-    const auto at = std::lower_bound(bodies.begin(), bodies.end(), mesh,
-                                     [](const EdgeBody& b, vox_body id) { return b.body.mesh_id < id; });
-    return at != bodies.end() && at->body.mesh_id == mesh ? &*at : nullptr;
-}
 
 bool same_edge(const EdgeContact& x, const EdgeContact& y) {
     return x.body_a == y.body_a && x.edge[0] == y.edge[0] && x.edge[1] == y.edge[1] && x.body_b == y.body_b;
@@ -43,7 +37,33 @@ double middle_of_part(std::span<const double> crossed_at, double at, bool enters
 
 } // namespace
 
-void EdgeContacts::prepare_depths(std::span<const EdgeBody> bodies, Workers& workers) {
+void EdgeContacts::add_to(ConstraintSources& sources, depth::SurfaceTrees& trees, Workers& workers) {
+    sources.edges = contacts_;
+    if (contacts_.empty() || sources.method == VOX_DEPTH_METHOD_NONE) return;
+    fit_trees(sources, trees, workers);
+    find_depths(sources, trees, workers);
+    sources.edge_depths = depths_;
+}
+
+// The trees of bodies that edges of others are in.
+void EdgeContacts::fit_trees(const ConstraintSources& from, depth::SurfaceTrees& trees, Workers& workers) {
+    entered_.clear();
+    PairIndex index(from.pairs);
+    for (const EdgeContact& contact : contacts_)
+        if (contact.body_a != contact.body_b && (entered_.empty() || entered_.back() != contact.body_b) &&
+            from.chosen[index(contact.body_a, contact.body_b)])
+            entered_.push_back(contact.body_b);
+    std::ranges::sort(entered_);
+    entered_.erase(std::unique(entered_.begin(), entered_.end()), entered_.end());
+    for (const vox_body id : entered_) trees.add(id); // which moves those of others
+    for (const vox_body id : entered_) {
+        const std::uint32_t b = body_index(from.bodies, id);
+        trees[id].update({from.topologies[b], from.bodies[b].tets, from.bodies[b].positions}, false,
+                         &workers);
+    }
+}
+
+void EdgeContacts::find_depths(const ConstraintSources& from, depth::SurfaceTrees& trees, Workers& workers) {
     constexpr std::size_t least_searches = 256; // that are worth a task
     depths_.reserve(contacts_.size());
     depths_.resize(contacts_.size());
@@ -52,22 +72,19 @@ void EdgeContacts::prepare_depths(std::span<const EdgeBody> bodies, Workers& wor
         const Vec3d normal = vector_of(contact.normal);
         Depth out{0, {normal.x, normal.y, normal.z}};
         if (contact.kind != CrossingKind::through) return out;
-        const EdgeBody *of_a = edge_body_of(bodies, contact.body_a),
-                       *of_b = edge_body_of(bodies, contact.body_b);
-        if (!of_a || !of_b) return out;
-        const EdgeBody &a = *of_a, &b = *of_b;
-        const Vec3d p = a.body.positions.exact(contact.edge[0]), q = a.body.positions.exact(contact.edge[1]);
+        const Positions &a = from.bodies[body_index(from.bodies, contact.body_a)].positions,
+                        &b = from.bodies[body_index(from.bodies, contact.body_b)].positions;
+        const Vec3d p = a.exact(contact.edge[0]), q = a.exact(contact.edge[1]);
         std::uint64_t exact_tests = 0;
-        const bool enters =
-            orientation(b.body.positions.exact(contact.face[0]), b.body.positions.exact(contact.face[1]),
-                        b.body.positions.exact(contact.face[2]), q, exact_tests) < 0;
+        const bool enters = orientation(b.exact(contact.face[0]), b.exact(contact.face[1]),
+                                        b.exact(contact.face[2]), q, exact_tests) < 0;
         const Vec3d middle = p + middle_of_part(crossed_at, contact.edge_weights[1], enters) * (q - p);
         if (contact.body_a == contact.body_b) {
             out.depth = std::max(dot(vector_of(contact.position) - middle, normal), 0.0);
             return out;
         }
         depth::Closest closest;
-        if (!b.tree || !b.tree->find(middle, depth::SurfaceTree::no_vertex, state, closest)) return out;
+        if (!trees[contact.body_b].find(middle, depth::SurfaceTree::no_vertex, state, closest)) return out;
         const Vec3d way = normalised(scaled(closest.way));
         if (!(length(way) > 0)) return out;
         return {std::sqrt(closest.squared), {way.x, way.y, way.z}};
@@ -77,10 +94,12 @@ void EdgeContacts::prepare_depths(std::span<const EdgeBody> bodies, Workers& wor
         contacts_.size(), least_searches, [&](std::size_t begin, std::size_t end, std::uint32_t w) {
             Array<double>& crossed_at = workers_[w].crossed_at;
             depth::SearchState state;
+            PairIndex index(from.pairs);
             vox_body last = VOX_NULL_BODY;
             std::size_t past = begin; // the contacts of one edge with one mesh end there
             for (std::size_t i = begin; i < end; ++i) {
                 const EdgeContact& contact = contacts_[i];
+                if (!from.chosen[index(contact.body_a, contact.body_b)]) continue;
                 if (i >= past) {
                     std::size_t first = i;
                     while (first > 0 && same_edge(contacts_[first - 1], contact)) --first;

@@ -83,20 +83,13 @@ using namespace vox;
 vox_grid::vox_grid(const vox_grid_desc& desc, const MemoryShare& memory)
     : share_(memory), memory_(*memory), log_(value_of(desc.log)), tasks_(value_of(desc.tasks)),
       workers_(tasks_, desc.worker_count), fast_(!desc.reference),
-      settings_(desc.reference ? read_reference(desc.reference) : ReferenceSettings{}),
-      skips_bad_meshes_((desc.flags & VOX_GRID_SKIP_BAD_BODIES) != 0), requested_cell_size_(desc.cell_size),
-      used_cell_size_(desc.cell_size), adaptive_(weights_of(desc.reference)), meshes_(&memory_),
-      bodies_(&memory_), prepared_(&memory_), fast_engine_(&memory_), reference_(&memory_),
-      topologies_(&memory_), trees_(&memory_), finds_constraints_((desc.flags & VOX_GRID_CONSTRAINTS) != 0),
-      hits_(&memory_), surface_versions_(&memory_), streamed_(&memory_), features_(&memory_),
-      contacts_(&memory_), interiors_(&memory_), left_out_(&memory_), penetrations_(&memory_),
-      pairs_(&memory_), touching_pairs_(&memory_), constraints_(&memory_), chosen_pairs_(&memory_),
-      chosen_bodies_(&memory_), chosen_hits_(&memory_), edge_bodies_(&memory_), entered_bodies_(&memory_),
-      locators_(share_), query_bodies_(&memory_) {
-    if (finds_constraints_) depth_.emplace(&memory_, trees_);
-    if (desc.flags & VOX_GRID_EDGES) edges_.emplace(&memory_);
-    set_margin(desc.margin);
-    epoch_ = 0; // what a grid is made with is no change of it
+      settings_(desc.reference ? read_reference(desc.reference) : ReferenceSettings{}), flags_(desc.flags),
+      requested_cell_size_(desc.cell_size), used_cell_size_(desc.cell_size),
+      adaptive_(weights_of(desc.reference)), meshes_(&memory_), step_(&memory_), fast_engine_(&memory_),
+      reference_(&memory_), surfaces_(&memory_), pairs_(&memory_), constraints_(&memory_),
+      left_out_(&memory_), locators_(share_), query_bodies_(&memory_) {
+    surfaces_.find_edges((flags_ & VOX_GRID_EDGES) != 0);
+    surfaces_.set_margin(desc.margin);
     list_counters();
 }
 
@@ -110,7 +103,7 @@ void vox_grid::prepare(Mesh& mesh, fast::MeshState& state) {
     if (fast_) {
         mesh.make_tiles();
         state.update(mesh.tiled(), mesh.tiles_version(), mesh.vertex_count());
-    } else if (finds_surfaces()) {
+    } else if (surfaces_.any()) {
         mesh.make_tiles();
     }
 }
@@ -147,31 +140,20 @@ void vox_grid::scene_changed() noexcept {
 
 void vox_grid::remove(vox_body id) {
     meshes_.remove(id);
-    trees_.forget(id);
-    features_.forget(id);
-    if (impacts_) impacts_->forget(id);
+    constraints_->forget(id);
+    surfaces_.topology_changed(id);
     scene_changed();
 }
 
 void vox_grid::clear() {
     meshes_.clear();
-    trees_.forget_all();
     scene_changed();
-    features_.forget_all();
-    if (edges_) {
-        edges_->clear();
-    }
-    impacts_.reset();
-    if (proximities_) proximities_->clear();
-    look_near();
-    contacts_.clear();
-    interiors_.clear();
-    penetrations_.clear();
-    depths_ = {};
-    constraints_.clear(true);
+    forget_contacts();
+    surfaces_.forget_all();
+    drop_unused();
+    constraints_->clear(true);
     stepped_ = false;
     failure_ = {};
-    left_out_.clear();
     contacts_hold_ = false;
     pairs_.hide();
     locators_.clear();
@@ -196,7 +178,7 @@ void vox_grid::set_filter(vox_body id, const vox_filter& filter) {
     }
     if (needed_it && !needs_topology(filter)) {
         filtered.drop_topology();
-        trees_.forget(id);
+        constraints_->forget(id);
     }
     mark_moved(id);
     warn_of_traps(filtered, id);
@@ -226,10 +208,7 @@ void vox_grid::set_pair_enabled(vox_body a, vox_body b, bool enabled) {
 
 void vox_grid::bind_previous(vox_body id, const Positions& positions) {
     (void)mesh(id); // throws for an id that names no mesh
-    if (!impacts_ && !positions.data) return;
-    if (!impacts_) impacts_.emplace(&memory_);
-    impacts_->bind(id, positions);
-    look_near();
+    surfaces_.bind_previous(id, positions);
 }
 
 // ---- cutting and growing --------------------------------------------------------------------------
@@ -239,7 +218,7 @@ void vox_grid::was_edited(vox_body id, std::uint64_t count) {
     meshes_[id].query_tets = nullptr;
     meshes_[id].edited = true;
     mark_moved(id);
-    trees_.topology_changed(id);
+    constraints_->topology_changed(id);
     adaptive_.scene_changed();
 }
 
@@ -251,9 +230,8 @@ void vox_grid::set_topology(vox_body id, const vox_mesh_desc& desc, const Body& 
     prepare(made, state);
     meshes_.replace(id, std::move(made), std::move(state));
     meshes_[id].edited = true;
-    trees_.topology_changed(id);
-    features_.forget(id);
-    if (impacts_) impacts_->forget(id);
+    constraints_->topology_changed(id);
+    surfaces_.topology_changed(id);
     if (view.vertex_count == 0) contacts_hold_ = false; // no positions show that it changed
     scene_changed();
     warn_of_traps(meshes_[id].mesh, id);
@@ -272,7 +250,7 @@ std::uint32_t vox_grid::append_vertices(vox_body id, const vox_vertices_desc& de
     (void)mesh(id); // throws for an id that names no mesh
     meshes_.check_growth(desc.count, 0);
     const std::uint32_t first = meshes_.append_vertices(id, desc);
-    if (impacts_ && desc.count > 0) impacts_->forget(id);
+    if (desc.count > 0) surfaces_.forget(id);
     was_edited(id, desc.count);
     return first;
 }
@@ -281,16 +259,12 @@ std::uint32_t vox_grid::append_vertices(vox_body id, const vox_vertices_desc& de
 
 void vox_grid::reserve(std::uint32_t mesh_count, std::uint64_t contact_count) {
     meshes_.reserve(mesh_count);
-    reserve_exactly(bodies_, mesh_count);
-    reserve_exactly(prepared_, mesh_count);
-    reserve_exactly(hits_, contact_count);
-    reserve_exactly(contacts_, contact_count);
-    reserve_exactly(interiors_, contact_count);
-    if (finds_penetrations()) {
-        penetrations_.reserve(contact_count);
-        depth_->reserve(contact_count);
-        constraints_.reserve(mesh_count, static_cast<std::size_t>(contact_count));
-    }
+    reserve_exactly(step_.bodies, mesh_count);
+    reserve_exactly(step_.prepared, mesh_count);
+    reserve_exactly(step_.hits, contact_count);
+    reserve_exactly(step_.contacts, contact_count);
+    reserve_exactly(step_.interiors, contact_count);
+    if (finds_constraints()) constraints_->reserve(mesh_count, contact_count);
     pairs_.reserve(mesh_count, static_cast<std::size_t>(contact_count));
     ++epoch_; // views of the contacts were left behind if they moved
 }
@@ -310,98 +284,61 @@ void vox_grid::set_worker_count(std::uint32_t worker_count) {
     contacts_hold_ = false; // as in set_cell_size()
 }
 
-std::uint32_t vox_grid::flags() const noexcept {
-    return (finds_penetrations() ? std::uint32_t{VOX_GRID_CONSTRAINTS} : 0u) |
-           (skips_bad_meshes_ ? std::uint32_t{VOX_GRID_SKIP_BAD_BODIES} : 0u) |
-           (edges_ ? std::uint32_t{VOX_GRID_EDGES} : 0u);
-}
-
 void vox_grid::set_flags(std::uint32_t flags) {
     check_flags(flags);
-    if (flags == this->flags()) return;
-    const bool find = (flags & VOX_GRID_CONSTRAINTS) != 0;
-    if (find && !finds_penetrations()) find_penetrations();
-    if (!find && finds_penetrations()) stop_finding_penetrations();
-    const bool edges = (flags & VOX_GRID_EDGES) != 0;
-    if (edges && !edges_) edges_.emplace(&memory_); // the next step prepares what it needs
-    if (!edges && edges_) {
-        edges_.reset();
-        drop_surfaces();
+    if (flags == flags_) return;
+    if (flags & ~flags_ & VOX_GRID_CONSTRAINTS) make_topologies();
+    const bool no_constraints = (flags_ & ~flags & VOX_GRID_CONSTRAINTS) != 0;
+    flags_ = flags;
+    if (no_constraints) {
+        constraints_.emplace(&memory_);
+        drop_topologies();
     }
-    skips_bad_meshes_ = (flags & VOX_GRID_SKIP_BAD_BODIES) != 0;
+    surfaces_.find_edges((flags & VOX_GRID_EDGES) != 0);
+    drop_unused();
     contacts_hold_ = false; // there is more, or less, to do with those of meshes at rest
     ++epoch_;
 }
 
 // All meshes get what the depth stage needs, or none.
-void vox_grid::find_penetrations() {
-    if (!depth_) depth_.emplace(&memory_, trees_);
-    finds_constraints_ = true;
-    Array<Mesh*> prepared(&memory_);
+void vox_grid::make_topologies() {
+    Array<Mesh*> made(&memory_);
     try {
-        prepared.reserve(meshes_.slot_count());
+        made.reserve(meshes_.slot_count());
         meshes_.for_each([&](vox_body, MeshSlot& slot) {
-            if (slot.mesh.has_topology() || !needs_topology(slot.mesh.filter())) return;
+            if (slot.mesh.has_topology() || is_sensor(slot.mesh.filter())) return;
             slot.mesh.make_topology();
-            prepared.push_back(&slot.mesh);
+            made.push_back(&slot.mesh);
         });
     } catch (...) {
-        for (Mesh* mesh : prepared) mesh->drop_topology();
-        finds_constraints_ = false;
-        depth_.reset();
+        for (Mesh* mesh : made) mesh->drop_topology();
         throw;
     }
 }
 
-void vox_grid::stop_finding_penetrations() noexcept {
-    meshes_.for_each([](vox_body, MeshSlot& slot) { slot.mesh.drop_topology(); });
-    depth_.reset();
-    trees_.forget_all();
-    penetrations_ = Penetrations(&memory_);
-    constraints_ = Constraints(&memory_);
-    chosen_pairs_ = Array<std::uint8_t>(&memory_);
-    chosen_bodies_ = Array<std::uint8_t>(&memory_);
-    chosen_hits_ = Array<Hit>(&memory_);
-    depths_ = {};
-    depths_may_carry_ = false;
-    finds_constraints_ = false;
+void vox_grid::drop_topologies() noexcept {
+    meshes_.for_each([this](vox_body, MeshSlot& slot) {
+        if (!needs_topology(slot.mesh.filter())) slot.mesh.drop_topology();
+    });
+    constraints_->forget_trees();
 }
 
 void vox_grid::set_margin(double margin) {
     check_margin(margin);
-    if (margin == margin_) return;
-    margin_ = margin;
-    if (margin > 0 && !proximities_) proximities_.emplace(&memory_);
-    if (margin == 0) proximities_.reset();
-    if (proximities_) proximities_->set_margin(margin);
-    look_near();
+    if (margin == surfaces_.margin()) return;
+    surfaces_.set_margin(margin); // the next step prepares what it needs
+    drop_unused();
     contacts_hold_ = false; // there is more, or less, to do with meshes at rest
     ++epoch_;
 }
 
-// The next step prepares what it needs; what none needs is given up.
-void vox_grid::look_near() noexcept {
-    const bool look = proximities_ || impacts_;
-    if (look == near_faces_.has_value()) return;
-    if (look) {
-        near_faces_.emplace(features_, &memory_);
-    } else {
-        near_faces_.reset();
-        drop_surfaces();
-    }
+// What no stage over surfaces needs any more.
+void vox_grid::drop_unused() noexcept {
+    if (!surfaces_.drop_unused()) return;
+    step_.versions = Array<SurfaceVersion>(&memory_);
+    drop_topologies();
 }
 
-// Of those that nothing needs any more.
-void vox_grid::drop_surfaces() noexcept {
-    if (finds_surfaces()) return;
-    surface_versions_ = Array<SurfaceVersion>(&memory_);
-    streamed_ = StreamedScene(&memory_);
-    features_ = KeptFeatures(&memory_);
-    meshes_.for_each([this](vox_body, MeshSlot& slot) {
-        if (!needs_topology(slot.mesh.filter())) slot.mesh.drop_topology();
-    });
-    trees_.forget_all();
-}
 // ---- what a cell size is suggested from, and the log ------------------------------------------------
 
 void vox_grid::describe(CellSizeScene& scene) const {

@@ -9,17 +9,12 @@
 #include "base/scene.hpp"
 #include "cell_size/adaptive.hpp"
 #include "cell_size/scene.hpp"
-#include "depth/stage.hpp"
 #include "fast/engine.hpp"
-#include "fast/step_scene.hpp"
-#include "grid/constraints.hpp"
-#include "grid/edge_contacts.hpp"
-#include "grid/impacts.hpp"
+#include "grid/constraint_stage.hpp"
 #include "grid/mesh_table.hpp"
 #include "grid/pairs.hpp"
-#include "grid/proximities.hpp"
-#include "grid/surface_features.hpp"
-#include "grid/vertex_face_search.hpp"
+#include "grid/step_data.hpp"
+#include "grid/surface_stages.hpp"
 #include "query/locator.hpp"
 #include "reference/engine.hpp"
 
@@ -53,7 +48,7 @@ public:
     void set_cell_size(double cell_size);
     void set_worker_count(std::uint32_t worker_count);
     void set_flags(std::uint32_t flags);
-    std::uint32_t flags() const noexcept;
+    std::uint32_t flags() const noexcept { return flags_; }
     void set_margin(double margin);
     vox_grid_info info() const noexcept;
 
@@ -103,37 +98,27 @@ public:
 private:
     friend class vox::Snapshot;
 
-    bool finds_penetrations() const noexcept { return finds_constraints_; }
-    // Whether a step looks at surfaces, penetrations aside.
-    bool finds_surfaces() const noexcept { return edges_ || near_faces_; }
+    bool finds_constraints() const noexcept { return (flags_ & VOX_GRID_CONSTRAINTS) != 0; }
+    bool skips_bad_meshes() const noexcept { return (flags_ & VOX_GRID_SKIP_BAD_BODIES) != 0; }
     bool needs_topology(const vox_filter& filter) const noexcept {
-        return (finds_penetrations() && !vox::is_sensor(filter)) || finds_surfaces();
+        return (finds_constraints() && !vox::is_sensor(filter)) || surfaces_.any();
     }
     void prepare(vox::Mesh& mesh, vox::fast::MeshState& state);
-    // Which penetrations there are: none, or those of all contacts of a step.
-    struct FoundDepths {
-        bool all = false;
-        vox_depth_method method = VOX_DEPTH_METHOD_CONSISTENT;
-        std::uint64_t closest_budget = 0;
-
-        bool operator==(const FoundDepths&) const = default;
-    };
-    void find_depths(const FoundDepths& wanted, vox::Counters& counters);
-    bool choose_pairs(const vox_constraint_desc& desc, bool in_step);
-    void make_constraints(const vox_constraint_desc& desc, bool in_step, vox::Counters& counters,
-                          vox::Profile& profile);
-    void find_edge_depths();
-    void find_penetrations();
-    void stop_finding_penetrations() noexcept;
-    void drop_surfaces() noexcept;
-    void look_near() noexcept;
+    void make_topologies();
+    void drop_topologies() noexcept;
+    void drop_unused() noexcept;
     void list_counters() noexcept;
-    bool search_surfaces(vox::Counters& counters, vox::Profile& profile);
-    std::span<const vox::IdPair> touching_pairs();
     void scene_changed() noexcept;
     bool chooses_cell_size() const noexcept { return requested_cell_size_ == 0; }
+    void begin_step() noexcept;
     void gather_bodies(vox::Counters& counters);
     void detect(bool& carry, vox::Counters& counters, vox::Profile& profile);
+    bool make_contacts(bool carry, vox::Counters& counters, vox::Profile& profile);
+    bool search_surfaces(vox::Counters& counters, vox::Profile& profile);
+    void find_pairs();
+    void make_constraints(const vox_constraint_desc& desc, bool in_step, vox::Counters& counters,
+                          vox::Profile& profile);
+    void count(vox::Counters& counters);
     void leave_out_bad_meshes();
     void forget_contacts() noexcept;
     bool is_left_out(const vox::Body& body) const noexcept;
@@ -159,53 +144,28 @@ private:
     // settings
     bool fast_;
     vox::ReferenceSettings settings_; // each step sets the cell size in it
-    bool skips_bad_meshes_;
-    double requested_cell_size_;     // 0: the library chooses it; the fast engine itself, for each window
-    double used_cell_size_;          // in the last step; before the first one the requested one
-    vox::AdaptiveCellSize adaptive_; // chooses for the reference engine
+    std::uint32_t flags_;             // vox_grid_flags
+    double requested_cell_size_;      // 0: the library chooses it; the fast engine itself, for each window
+    double used_cell_size_;           // in the last step; before the first one the requested one
+    vox::AdaptiveCellSize adaptive_;  // chooses for the reference engine
 
     vox::MeshTable meshes_;
 
-    // one step
-    vox::Array<vox::Body> bodies_;
-    vox::Array<vox::fast::PreparedBody> prepared_; // of each body that has tiles
+    // one step, and its results
+    vox::StepData step_;
     vox::FastEngine fast_engine_;
     vox::ReferenceEngine reference_;
-    vox::Array<const vox::Topology*> topologies_; // of each body, for the depth stage
-    vox::depth::SurfaceTrees trees_;              // that depths search
-    bool finds_constraints_;                      // every step does
-    std::optional<vox::DepthStage> depth_;        // once depths were looked for
-    vox::Array<vox::Hit> hits_;
-    vox::Array<vox::SurfaceVersion> surface_versions_; // of each body, while it finds some of the following
-    vox::StreamedScene streamed_;                      // what these read of the reference engine's steps
-    vox::KeptFeatures features_;                       // of the surfaces that these came upon
-    std::optional<vox::EdgeContacts> edges_;           // while it finds them; has the results as well
-    double margin_ = 0;
-    std::optional<vox::VertexFaceSearch> near_faces_; // while one of these is there
-    std::optional<vox::Proximities> proximities_;     // while there is a margin; has the results as well
-    std::optional<vox::Impacts> impacts_; // while a mesh has previous positions; has the results as well
-
-    // results
-    vox::Array<vox_contact> contacts_;
-    vox::Array<std::uint8_t> interiors_; // whether each contact is interior
-    vox_failure failure_{};              // of a mesh that made the last step fail
-    vox::Array<vox_failure> left_out_;   // the meshes that the last step left out
+    vox::SurfaceStages surfaces_;
+    vox::Pairs pairs_;
+    std::optional<vox::ConstraintStage> constraints_; // always there
+    vox_failure failure_{};                           // of a mesh that made the last step fail
+    vox::Array<vox_failure> left_out_;                // the meshes that the last step left out
     // Whether another step would find the same contacts between meshes that were in the last one and have not
     // moved since. False after every change of a setting that contacts may depend on.
     bool contacts_hold_ = false;
     // Whether the meshes, positions aside, are those of the last step of the fast engine.
     bool meshes_hold_ = false;
-    vox::Penetrations penetrations_;
-    FoundDepths depths_;            // what is in penetrations_
-    bool depths_may_carry_ = false; // those of the last step, to this one
-    bool stepped_ = false;          // the last step succeeded, and the grid was not cleared since
-    vox::Pairs pairs_;
-    vox::Array<vox::IdPair> touching_pairs_; // in one step
-    vox::Constraints constraints_;
-    vox::Array<std::uint8_t> chosen_pairs_, chosen_bodies_; // in one call
-    vox::Array<vox::Hit> chosen_hits_;                      // of some pairs, once they alone were asked for
-    vox::Array<vox::EdgeBody> edge_bodies_;                 // while depths of edges are looked for
-    vox::Array<vox_body> entered_bodies_;
+    bool stepped_ = false; // the last step succeeded, and the grid was not cleared since
     vox::Locators locators_;
     vox::Array<vox::QueryBody> query_bodies_; // in one call
     vox::Counters counters_{};

@@ -7,6 +7,7 @@
 #include "exact/closest_point.hpp"
 #include "exact/facet_normal.hpp"
 #include "exact/predicates.hpp"
+#include "grid/constraints.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -28,7 +29,7 @@ void Impacts::forget(vox_body mesh) noexcept {
     erase_if(bound_, [mesh](const Bound& bound) { return bound.mesh == mesh; });
 }
 
-void Impacts::find(const StepScene& scene, VertexFaceSearch& search) {
+void Impacts::find(const StepScene& scene, KeptFeatures& kept) {
     previous_.assign(scene.bodies.size(), {});
     for (std::size_t b = 0, i = 0; b < scene.bodies.size(); ++b) {
         while (i < bound_.size() && bound_[i].mesh < scene.bodies[b].mesh_id) ++i;
@@ -36,26 +37,23 @@ void Impacts::find(const StepScene& scene, VertexFaceSearch& search) {
             previous_[b] = bound_[i].positions;
     }
     begin_step(scene, 1);
-    search.find_meeting(scene, previous_, *this);
+    find_meeting(scene, previous_, kept);
     end_step("impacts");
     list_impacts();
 }
 
 void Impacts::list_impacts() {
     impacts_.clear();
-    reserve_sparingly(impacts_, meetings().size());
-    const auto body_of = [&](vox_body id) {
-        return static_cast<std::uint32_t>(std::ranges::lower_bound(scene().bodies, id, {}, &Body::mesh_id) -
-                                          scene().bodies.begin());
-    };
+    reserve_sparingly(impacts_, all().size());
     const std::span<const vox_contact> contacts = scene().contacts;
     auto inside = contacts.begin();
-    for (const SurfaceMeeting& met : meetings()) {
+    for (const SurfaceMeeting& met : all()) {
         inside =
             std::lower_bound(inside, contacts.end(), place_of(met),
                              [&](const vox_contact& c, const auto& sought) { return place_of(c) < sought; });
         if (inside != contacts.end() && place_of(*inside) == place_of(met)) continue;
-        const std::uint32_t a = body_of(met.body_a), b = body_of(met.body_b);
+        const std::uint32_t a = body_index(scene().bodies, met.body_a),
+                            b = body_index(scene().bodies, met.body_b);
         const Vec3d p = position(a, met.vertex);
         const Vec3d corner[3] = {position(b, met.face[0]), position(b, met.face[1]),
                                  position(b, met.face[2])};
@@ -75,7 +73,12 @@ void Impacts::list_impacts() {
                             {normal.x, normal.y, normal.z},
                             std::min(dot(normal, p - corner[0]), 0.0)});
     }
-    list_pairs(all(), pairs_);
+    list_pairs(std::span<const Impact>(impacts_), pairs_);
+}
+
+void Impacts::add_to(ConstraintSources& sources, depth::SurfaceTrees&, Workers&) const noexcept {
+    sources.meetings = all();
+    sources.impacts = impacts_;
 }
 
 Vec3d Impacts::before(std::uint32_t body, std::uint32_t vertex) const noexcept {

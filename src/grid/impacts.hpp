@@ -38,27 +38,28 @@ struct MovingTile {
     std::array<Vec3d, SurfaceTile::most_vertices> from, to;
 };
 
-class Impacts final : LeastFaces<SurfaceMeeting, NoNote, MovingTile> {
+class Impacts final : public LeastFaces<SurfaceMeeting, NoNote, MovingTile> {
 public:
+    static constexpr vox_pair_state pair_state = VOX_PAIR_BEGAN;
+
     explicit Impacts(std::pmr::memory_resource* memory)
-        : LeastFaces(memory), bound_(memory), previous_(memory), impacts_(memory), pairs_(memory) {}
+        : LeastFaces(memory), bound_(memory), previous_(memory), impacts_(memory) {}
 
     // The previous positions of a mesh; without data: it has none any more.
     void bind(vox_body mesh, const Positions& positions);
-    void forget(vox_body mesh) noexcept;
     bool any_bound() const noexcept { return !bound_.empty(); }
 
-    // Replaces meetings and impacts. If it throws, clear() is to be called.
-    void find(const StepScene& scene, VertexFaceSearch& search);
-    void count(Counters& counters) const noexcept { counters.impacts = meetings().size(); }
-
-    std::span<const SurfaceMeeting> meetings() const noexcept { return LeastFaces::all(); }
-    std::span<const Impact> all() const noexcept { return impacts_; } // in the order of meetings
-    std::span<const IdPair> pairs() const noexcept { return pairs_; } // of bodies with impacts, in order
+    void find(const StepScene& scene, KeptFeatures& kept);
+    void count(Counters& counters) const noexcept { counters.impacts = all().size(); }
+    void add_to(ConstraintSources& sources, depth::SurfaceTrees& trees, Workers& workers) const noexcept;
     void clear() noexcept {
         LeastFaces::clear();
         impacts_.clear();
-        pairs_.clear();
+    }
+    void forget(vox_body mesh) noexcept;
+    void forget_all() noexcept {
+        clear();
+        bound_.clear();
     }
 
 private:
@@ -76,8 +77,7 @@ private:
 
     Array<Bound> bound_;        // by mesh
     Array<Positions> previous_; // of each body of a step
-    Array<Impact> impacts_;
-    Array<IdPair> pairs_;
+    Array<Impact> impacts_;     // in the order of meetings
 };
 
 } // namespace vox

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/array.hpp"
+#include "base/counters.hpp"
 #include "base/per_worker.hpp"
 #include "base/room.hpp"
 #include "fast/step_scene.hpp"
@@ -19,6 +20,11 @@
 #include <tuple>
 
 namespace vox {
+
+namespace depth {
+class SurfaceTrees;
+}
+struct ConstraintSources;
 
 // A vertex and a face of the surface of another body.
 struct VertexFace {
@@ -38,12 +44,20 @@ auto place_of(const Element& element) noexcept {
 // `Element` is a VertexFace and more; `Note` is what is kept of a face while it is the least, `Tile` what is
 // read of a tile for all vertices near it.
 template <class Element, class Note, class Tile>
-class LeastFaces : protected NearFacesVisitor {
+class LeastFaces : protected VertexFaceSearch {
 public:
-    std::span<const Element> all() const noexcept { return all_; } // in canonical order
-    void clear() noexcept { all_.clear(); }
+    static constexpr auto time = &Profile::margin_ns;
+
+    bool is_unchanged() const noexcept { return false; }
+    std::span<const IdPair> pairs() const noexcept { return pairs_; }
+    void clear() noexcept {
+        all_.clear();
+        pairs_.clear();
+    }
 
 protected:
+    std::span<const Element> all() const noexcept { return all_; } // in canonical order
+
     // The least face so far of a vertex; of several with the same number that of the lowest (tet, facet).
     struct Least {
         std::uint32_t place; // of the vertex in the pair
@@ -77,7 +91,8 @@ protected:
     static constexpr std::uint32_t none_yet = ~0u;
 
     explicit LeastFaces(std::pmr::memory_resource* memory)
-        : workers_(memory), found_(memory), order_(memory), all_(memory) {}
+        : VertexFaceSearch(memory), workers_(memory), found_(memory), order_(memory), all_(memory),
+          pairs_(memory) {}
     ~LeastFaces() = default;
 
     // Reads worker.tile.
@@ -202,6 +217,9 @@ private:
     Array<Found> found_;
     Array<std::uint32_t> order_;
     Array<Element> all_;
+
+protected:
+    Array<IdPair> pairs_; // of bodies with contacts, in order
 };
 
 } // namespace vox

@@ -59,14 +59,14 @@ public:
     // When a step begins, or the grid is cleared: no pairs until a step ends.
     void hide() noexcept { are_shown_ = is_pending_ = false; }
 
-    // Pairs with contacts, those that touch in another way, and those that are near, which take the place of
+    // Pairs with contacts, and others that for_others(add) adds by add(pairs, state), which take the place of
     // the last step's with commit(). Calls user_data(body) for each body of a pair.
-    template <class UserData>
-    void update(std::span<const vox_contact> contacts, std::span<const IdPair> touching,
-                std::span<const IdPair> near, std::size_t slots, UserData&& user_data) {
+    template <class ForOthers, class UserData>
+    void update(std::span<const vox_contact> contacts, ForOthers&& for_others, std::size_t slots,
+                UserData&& user_data) {
         find_touching(contacts, slots, buffers_, next(), by_pair_);
-        add_pairs(touching, VOX_PAIR_BEGAN, next());
-        add_pairs(near, VOX_PAIR_NEAR, next());
+        for_others(
+            [this](std::span<const IdPair> pairs, vox_pair_state state) { add_pairs(pairs, state, next()); });
         for (vox_pair& pair : next()) {
             pair.user_data_a = user_data(pair.body_a);
             pair.user_data_b = user_data(pair.body_b);

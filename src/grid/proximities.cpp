@@ -10,6 +10,7 @@
 #include "exact/closest_point.hpp"
 #include "exact/facet_normal.hpp"
 #include "exact/predicates.hpp"
+#include "grid/constraints.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -43,10 +44,10 @@ Vec3d normal_to(const Vec3d& p, const Vec3d (&corner)[3], const SeenPoint& seen,
 
 } // namespace
 
-void Proximities::find(const StepScene& scene, VertexFaceSearch& search) {
+void Proximities::find(const StepScene& scene, KeptFeatures& kept) {
     begin_step(scene, margin_ * margin_); // distances are squared
     carried_ = carry();
-    search.find_near(scene, margin_, *this);
+    find_near(scene, margin_, kept);
     end_step("proximities");
     list_pairs(all(), pairs_);
 }
@@ -54,6 +55,10 @@ void Proximities::find(const StepScene& scene, VertexFaceSearch& search) {
 void Proximities::count(Counters& counters) const noexcept {
     counters.proximities = all().size();
     counters.carried_proximities = carried_;
+}
+
+void Proximities::add_to(ConstraintSources& sources, depth::SurfaceTrees&, Workers&) const noexcept {
+    sources.proximities = all();
 }
 
 // Vertices that are gone, and those that have a contact.

@@ -34,20 +34,18 @@ struct ExactTile {
 
 class Proximities final : public LeastFaces<Proximity, SeenPoint, ExactTile> {
 public:
-    explicit Proximities(std::pmr::memory_resource* memory) : LeastFaces(memory), pairs_(memory) {}
+    static constexpr vox_pair_state pair_state = VOX_PAIR_NEAR;
+
+    explicit Proximities(std::pmr::memory_resource* memory) : LeastFaces(memory) {}
 
     void set_margin(double margin) noexcept { margin_ = margin; }
+    double margin() const noexcept { return margin_; }
 
-    // Replaces the proximities. Those between bodies at rest are carried over. If it throws, clear() is to be
-    // called.
-    void find(const StepScene& scene, VertexFaceSearch& search);
+    void find(const StepScene& scene, KeptFeatures& kept);
     void count(Counters& counters) const noexcept;
-
-    std::span<const IdPair> pairs() const noexcept { return pairs_; } // of bodies, in order
-    void clear() noexcept {
-        LeastFaces::clear();
-        pairs_.clear();
-    }
+    void add_to(ConstraintSources& sources, depth::SurfaceTrees& trees, Workers& workers) const noexcept;
+    void forget(vox_body) noexcept {}
+    void forget_all() noexcept { clear(); }
 
 private:
     void leave_out(std::uint32_t a, std::uint32_t b, Array<std::uint32_t>& vertices) const override;
@@ -57,7 +55,6 @@ private:
 
     double margin_ = 0;
     std::size_t carried_ = 0;
-    Array<IdPair> pairs_;
 };
 
 } // namespace vox

@@ -14,52 +14,26 @@
 using namespace vox;
 
 void vox_grid::step() {
-    const std::uint64_t start = nanoseconds();
     bool carry = contacts_hold_;
-    contacts_hold_ = meshes_hold_ = false;
-    hits_.clear();
-    pairs_.hide();
-    constraints_.begin_step(stepped_);
-    const bool had_depths = depths_.all && stepped_;
-    depths_may_carry_ = stepped_ = false;
-    failure_ = {};
-    left_out_.clear();
-    if (impacts_ && !impacts_->any_bound()) {
-        impacts_.reset();
-        look_near();
-    }
-    ++epoch_;
-
+    begin_step();
     Counters counters{};
     Profile profile{};
     try {
+        const Timed timed(profile.step_ns);
         detect(carry, counters, profile);
         drop_removed_vertices();
-
-        const std::uint64_t detected = nanoseconds();
-        if (carry && counters.moved_bodies < bodies_.size()) counters.carried_contacts = carry_contacts();
-        // If every old contact was carried and no new one found, contacts, depth and pairs are unchanged.
-        const bool all_carried =
-            counters.carried_contacts == contacts_.size() && hits_.size() == contacts_.size();
-        if (!all_carried) make_contacts(bodies_, hits_, contacts_, &workers_, &interiors_);
-        std::uint64_t contacts_made = nanoseconds();
-        profile.contacts_ns = contacts_made - detected;
-        const bool same_edges = !finds_surfaces() || search_surfaces(counters, profile);
-        contacts_made += profile.edges_ns + profile.margin_ns;
-
-        // If every contact was carried, so are the depths.
-        if (!(carry && all_carried && had_depths)) depths_.all = false;
-        depths_may_carry_ = carry && had_depths;
-        if (depths_.all) counters.carried_penetrations = penetrations_.all().size();
-
-        if (carry && all_carried && same_edges && !near_faces_)
-            pairs_.repeat();
-        else
-            pairs_.update(contacts_, touching_pairs(),
-                          proximities_ ? proximities_->pairs() : std::span<const IdPair>(),
-                          meshes_.slot_count(), [this](vox_body id) { return mesh(id).user_data(); });
-        profile.pairs_ns = nanoseconds() - contacts_made;
-        if (finds_constraints_) make_constraints({}, true, counters, profile);
+        const bool all_carried = make_contacts(carry, counters, profile);
+        const bool same_surfaces = search_surfaces(counters, profile);
+        constraints_->carry(carry, all_carried, counters);
+        {
+            const Timed pairs_timed(profile.pairs_ns);
+            if (carry && all_carried && same_surfaces)
+                pairs_.repeat();
+            else
+                find_pairs();
+        }
+        if (finds_constraints()) make_constraints({}, true, counters, profile);
+        count(counters);
     } catch (const MeshError& error) {
         forget_contacts();
         failure_ = failure_of(error.result(), error.mesh, error.vertex);
@@ -68,15 +42,6 @@ void vox_grid::step() {
         forget_contacts();
         throw;
     }
-
-    counters.bodies = static_cast<std::uint32_t>(bodies_.size());
-    for (const Body& body : bodies_) {
-        counters.vertices += body.vertex_count;
-        counters.tets += body.tets.size() - body.off_count;
-        counters.bodies_without_tets += body.tets.empty() && body.vertex_count > 0;
-    }
-    counters.skipped_bodies = left_out_.size();
-    counters.contacts = contacts_.size();
     pairs_.commit();
     pairs_.count(counters);
     if (chooses_cell_size() && !fast_) {
@@ -84,7 +49,6 @@ void vox_grid::step() {
         counters.cell_size_changes = adaptive_.changes();
     }
     counters_ = counters;
-    profile.step_ns = nanoseconds() - start;
     profile_ = profile;
     list_counters();
     stepped_ = true;
@@ -92,54 +56,72 @@ void vox_grid::step() {
     meshes_hold_ = fast_ && left_out_.empty();
 }
 
-// Pairs that touch by edges, or by vertices that went through.
-std::span<const IdPair> vox_grid::touching_pairs() {
-    const auto edges = edges_ ? edges_->pairs() : std::span<const IdPair>();
-    const auto impacts = impacts_ ? impacts_->pairs() : std::span<const IdPair>();
-    if (impacts.empty()) return edges;
-    touching_pairs_.clear();
-    reserve_growing(touching_pairs_, edges.size() + impacts.size());
-    touching_pairs_.resize(edges.size() + impacts.size());
-    std::ranges::merge(edges, impacts, touching_pairs_.begin());
-    touching_pairs_.erase(std::unique(touching_pairs_.begin(), touching_pairs_.end()), touching_pairs_.end());
-    return touching_pairs_;
+void vox_grid::begin_step() noexcept {
+    contacts_hold_ = meshes_hold_ = false;
+    step_.hits.clear();
+    pairs_.hide();
+    constraints_->begin_step(stepped_);
+    stepped_ = false;
+    failure_ = {};
+    left_out_.clear();
+    drop_unused();
+    ++epoch_;
 }
 
-// Edges through faces, vertices through faces, and vertices near faces that they are not inside of. Returns
-// whether there are the same edges as in the last step, or none are looked for.
+// Returns whether every old contact was carried and no new one found: then contacts, depths and pairs are
+// those of the last step.
+bool vox_grid::make_contacts(bool carry, Counters& counters, Profile& profile) {
+    const Timed timed(profile.contacts_ns);
+    if (carry && counters.moved_bodies < step_.bodies.size()) counters.carried_contacts = carry_contacts();
+    const std::size_t had = step_.contacts.size();
+    if (counters.carried_contacts == had && step_.hits.size() == had) return true;
+    vox::make_contacts(step_.bodies, step_.hits, step_.contacts, &workers_, &step_.interiors);
+    return false;
+}
+
+// Contacts that stages over surfaces find. Returns whether they are those of the last step.
 bool vox_grid::search_surfaces(Counters& counters, Profile& profile) {
-    const std::uint64_t start = nanoseconds();
-    StepScene scene{bodies_, topologies_, surface_versions_, &workers_, contacts_};
-    if (fast_)
-        fast_engine_.fill(scene);
-    else
-        streamed_.fill(prepared_, scene);
-    if (edges_) {
-        edges_->find(scene, features_);
-        edges_->count(counters);
-        profile.edges_ns = nanoseconds() - start;
+    StepScene scene{step_.bodies, step_.topologies, step_.versions, &workers_, step_.contacts};
+    const auto fill = [this](StepScene& filled, StreamedScene& streamed) {
+        if (fast_)
+            fast_engine_.fill(filled);
+        else
+            streamed.fill(step_.prepared, filled);
+    };
+    return surfaces_.find(scene, fill, counters, profile);
+}
+
+void vox_grid::find_pairs() {
+    pairs_.update(
+        step_.contacts, [this](const auto& add) { surfaces_.for_pairs(add); }, meshes_.slot_count(),
+        [this](vox_body id) { return mesh(id).user_data(); });
+}
+
+void vox_grid::make_constraints(const vox_constraint_desc& desc, bool in_step, Counters& counters,
+                                Profile& profile) {
+    constraints_->find(desc, {step_, meshes_, pairs_.pending(), surfaces_, workers_, in_step}, counters,
+                       profile);
+    if (desc.method != VOX_DEPTH_METHOD_NONE && counters.unknown_penetrations > 0)
+        warn("%llu of %llu penetrations are unknown: the closest_budget of %llu was used up",
+             llu(counters.unknown_penetrations), llu(counters.penetrations), llu(desc.closest_budget));
+}
+
+void vox_grid::count(Counters& counters) {
+    counters.bodies = static_cast<std::uint32_t>(step_.bodies.size());
+    for (const Body& body : step_.bodies) {
+        counters.vertices += body.vertex_count;
+        counters.tets += body.tets.size() - body.off_count;
+        counters.bodies_without_tets += body.tets.empty() && body.vertex_count > 0;
     }
-    if (impacts_) {
-        impacts_->find(scene, *near_faces_);
-        impacts_->count(counters);
-    }
-    if (proximities_) {
-        proximities_->find(scene, *near_faces_);
-        proximities_->count(counters);
-    }
-    if (near_faces_) profile.margin_ns = nanoseconds() - start - profile.edges_ns;
-    return !edges_ || edges_->unchanged();
+    counters.skipped_bodies = left_out_.size();
+    counters.contacts = step_.contacts.size();
 }
 
 void vox_grid::forget_contacts() noexcept {
-    if (edges_) edges_->clear();
-    if (proximities_) proximities_->clear();
-    if (impacts_) impacts_->clear();
-    contacts_.clear();
-    interiors_.clear();
-    penetrations_.clear();
-    depths_ = {};
-    constraints_.clear(false);
+    surfaces_.clear();
+    step_.contacts.clear();
+    step_.interiors.clear();
+    constraints_->clear(false);
     left_out_.clear();
 }
 
@@ -157,11 +139,11 @@ void vox_grid::detect(bool& carry, Counters& counters, Profile& profile) {
     try {
         return detect_once();
     } catch (const MeshError& error) {
-        if (!skips_bad_meshes_ || error.vertex == VOX_NONE) throw;
+        if (!skips_bad_meshes() || error.vertex == VOX_NONE) throw;
     }
     leave_out_bad_meshes();
     carry = false;
-    hits_.clear();
+    step_.hits.clear();
     detect_once();
 }
 
@@ -179,7 +161,7 @@ void vox_grid::leave_out_bad_meshes() {
 }
 
 bool vox_grid::is_left_out(const Body& body) const noexcept {
-    return skips_bad_meshes_ && first_bad_vertex(body) != VOX_NONE;
+    return skips_bad_meshes() && first_bad_vertex(body) != VOX_NONE;
 }
 
 vox_failure vox_grid::failure_of(vox_result result, vox_body id, std::uint32_t vertex) const noexcept {
@@ -200,10 +182,10 @@ vox_failure vox_grid::failure_of(vox_result result, vox_body id, std::uint32_t v
 void vox_grid::gather_bodies(Counters& counters) {
     counters.disabled_bodies = 0;
     left_out_.clear();
-    bodies_.clear();
-    topologies_.clear();
-    surface_versions_.clear();
-    prepared_.clear();
+    step_.bodies.clear();
+    step_.topologies.clear();
+    step_.versions.clear();
+    step_.prepared.clear();
     meshes_.for_each([&](vox_body id, MeshSlot& slot) {
         Mesh& mesh = slot.mesh;
         slot.body = MeshSlot::none;
@@ -217,36 +199,37 @@ void vox_grid::gather_bodies(Counters& counters) {
         mesh.check_format_once(id);
         if (slot.left_out) { // looked at before the engine does, as others may be at rest
             const std::uint32_t vertex = first_bad_vertex(mesh.body(id));
-            slot.left_out = skips_bad_meshes_ && vertex != VOX_NONE;
+            slot.left_out = skips_bad_meshes() && vertex != VOX_NONE;
             if (slot.left_out) {
                 left_out_.push_back(failure_of(bad_position(mesh.body(id), vertex), id, vertex));
                 return;
             }
         }
-        slot.body = static_cast<std::uint32_t>(bodies_.size());
+        slot.body = static_cast<std::uint32_t>(step_.bodies.size());
         // What edits invalidated, and what meshes inserted without positions lack.
         mesh.make_rings();
         prepare(mesh, slot.state);
-        Body& body = bodies_.emplace_back(mesh.body(id));
+        Body& body = step_.bodies.emplace_back(mesh.body(id));
         if (body.off_count == body.tets.size()) { // the stages need not look at them
             body.tets = {};
             body.off_count = 0;
         }
-        topologies_.push_back(&mesh.topology());
-        if (finds_surfaces()) surface_versions_.push_back({mesh.topology_version(), mesh.tiles_version()});
+        step_.topologies.push_back(&mesh.topology());
+        if (surfaces_.any()) step_.versions.push_back({mesh.topology_version(), mesh.tiles_version()});
         slot.edited = false;
-        if (fast_ || finds_surfaces())
-            prepared_.push_back({&mesh.tiled().tiles, &mesh.tiled().boundary, &slot.state});
+        if (fast_ || surfaces_.any())
+            step_.prepared.push_back({&mesh.tiled().tiles, &mesh.tiled().boundary, &slot.state});
     });
 }
 
 // Removed vertices make no contacts.
 void vox_grid::drop_removed_vertices() {
-    if (std::all_of(bodies_.begin(), bodies_.end(),
+    if (std::all_of(step_.bodies.begin(), step_.bodies.end(),
                     [](const Body& body) { return body.removed_vertices.empty(); }))
         return;
-    erase_if(hits_,
-             [this](const Hit& hit) { return has_bit(bodies_[hit.body_a].removed_vertices, hit.vertex); });
+    erase_if(step_.hits, [this](const Hit& hit) {
+        return has_bit(step_.bodies[hit.body_a].removed_vertices, hit.vertex);
+    });
 }
 
 void vox_grid::detect_fast(bool carry, Counters& counters, Profile& profile) {
@@ -254,39 +237,39 @@ void vox_grid::detect_fast(bool carry, Counters& counters, Profile& profile) {
     const FastSettings settings{.cell_size = requested_cell_size_,
                                 .workers = &workers_,
                                 .carry = carry,
-                                .keep_certified = edges_.has_value()};
-    fast_engine_.detect(bodies_, prepared_, settings, hits_, counters, profile);
+                                .keep_certified = (flags_ & VOX_GRID_EDGES) != 0};
+    fast_engine_.detect(step_.bodies, step_.prepared, settings, step_.hits, counters, profile);
     if (chooses_cell_size()) used_cell_size_ = fast_engine_.cell_size();
 }
 
 // Appends the contacts of the last step between meshes that have not moved as hits, and returns how many.
 // Either all contacts of a vertex with a mesh are carried or none, so they become the same contacts again.
 std::uint64_t vox_grid::carry_contacts() {
-    const std::size_t found = hits_.size();
-    for (std::uint32_t b = 0; b < bodies_.size(); ++b) bodies_[b].carried = !fast_engine_.moved(b);
+    const std::size_t found = step_.hits.size();
+    for (std::uint32_t b = 0; b < step_.bodies.size(); ++b) step_.bodies[b].carried = !fast_engine_.moved(b);
     const auto resting_body = [this](vox_body id) {
         const MeshSlot* slot = meshes_.find(id);
-        return slot && slot->body != MeshSlot::none && bodies_[slot->body].carried ? slot->body
-                                                                                   : MeshSlot::none;
+        return slot && slot->body != MeshSlot::none && step_.bodies[slot->body].carried ? slot->body
+                                                                                        : MeshSlot::none;
     };
-    for (const vox_contact& contact : contacts_) {
+    for (const vox_contact& contact : step_.contacts) {
         Hit hit{};
         hit.body_a = resting_body(contact.body_a);
         hit.body_b = resting_body(contact.body_b);
         if (hit.body_a == MeshSlot::none || hit.body_b == MeshSlot::none) continue;
         hit.vertex = contact.vertex;
         hit.tet = contact.tet & 0x7fffffffu;
-        hit.interior = interiors_[static_cast<std::size_t>(&contact - contacts_.data())] != 0;
-        reserve_sparingly(hits_, hits_.size() + 1);
-        hits_.push_back(hit);
+        hit.interior = step_.interiors[static_cast<std::size_t>(&contact - step_.contacts.data())] != 0;
+        reserve_sparingly(step_.hits, step_.hits.size() + 1);
+        step_.hits.push_back(hit);
     }
-    return hits_.size() - found;
+    return step_.hits.size() - found;
 }
 
 void vox_grid::detect_reference(Counters& counters, Profile& profile) {
     choose_cell_size();
-    counters.moved_bodies = bodies_.size();
-    reference_.detect(bodies_, settings_, hits_, counters, profile);
+    counters.moved_bodies = step_.bodies.size();
+    reference_.detect(step_.bodies, settings_, step_.hits, counters, profile);
 }
 
 void vox_grid::choose_cell_size() {
@@ -295,7 +278,7 @@ void vox_grid::choose_cell_size() {
     if (!chooses_cell_size()) return;
     const double before = used_cell_size_;
     const std::uint64_t changes = adaptive_.changes();
-    settings_.levels = adaptive_.cell_sizes(bodies_, settings_.dense, byte_limit(), &memory_);
+    settings_.levels = adaptive_.cell_sizes(step_.bodies, settings_.dense, byte_limit(), &memory_);
     used_cell_size_ = settings_.levels[0].cell_size;
     if (before > 0 && adaptive_.changes() == changes) return;
     if (!log_.write) return;
@@ -303,9 +286,9 @@ void vox_grid::choose_cell_size() {
     for (std::size_t l = 1; l < settings_.levels.size(); ++l)
         text += format(", %.9g", settings_.levels[l].cell_size);
     text += before > 0 ? format(" after %.9g,", before) : " chosen";
-    write_log(VOX_LOG_INFO,
-              format("%s for %llu tets in %zu meshes", text.c_str(), llu(meshes_.tet_count()), bodies_.size())
-                  .c_str());
+    write_log(VOX_LOG_INFO, format("%s for %llu tets in %zu meshes", text.c_str(), llu(meshes_.tet_count()),
+                                   step_.bodies.size())
+                                .c_str());
 }
 
 // The most bytes that cells of dense storage may take: the budget less what the grid holds beside them, and

@@ -45,28 +45,28 @@ void check_previous(const Body& body, const Positions& previous) {
 
 } // namespace
 
-VertexFaceSearch::VertexFaceSearch(KeptFeatures& kept, std::pmr::memory_resource* memory)
-    : kept_(kept), packed_(memory), block_boxes_(memory), group_boxes_(memory), bodies_(memory),
-      body_boxes_(memory), pair_buffers_(memory), pairs_(memory), workers_(memory) {}
+VertexFaceSearch::VertexFaceSearch(std::pmr::memory_resource* memory)
+    : packed_(memory), block_boxes_(memory), group_boxes_(memory), bodies_(memory), body_boxes_(memory),
+      pair_buffers_(memory), pairs_(memory), lists_(memory) {}
 
 // ---- which bodies ---------------------------------------------------------------------------------
 
-void VertexFaceSearch::find_near(const StepScene& scene, double margin, NearFacesVisitor& visitor) {
+void VertexFaceSearch::find_near(const StepScene& scene, double margin, KeptFeatures& kept) {
     bodies_.begin(scene);
     for (std::size_t b = 0; b < bodies_.size(); ++b)
         if (!is_empty(bodies_[b].box)) bodies_[b].grow = growth(bodies_[b].box, margin);
     find_pairs(scene, {scene.bodies, scene.of});
-    search(scene, visitor);
+    search(scene, kept);
 }
 
 void VertexFaceSearch::find_meeting(const StepScene& scene, std::span<const Positions> previous,
-                                    NearFacesVisitor& visitor) {
+                                    KeptFeatures& kept) {
     bodies_.begin(scene);
     move_bodies(scene, previous);
     find_pairs(scene, {scene.bodies, {}});
     erase_if(pairs_,
              [&](const fast::Pair& pair) { return !previous[pair.a].data && !previous[pair.b].data; });
-    search(scene, visitor);
+    search(scene, kept);
 }
 
 // Bodies with previous positions get boxes of their own, around where their vertices are and were.
@@ -115,79 +115,78 @@ void VertexFaceSearch::find_pairs(const StepScene& scene, const fast::PairRules&
     erase_if(pairs_, [&](const fast::Pair& pair) { return scene.topologies[pair.b]->triangles.empty(); });
 }
 
-void VertexFaceSearch::search(const StepScene& scene, NearFacesVisitor& visitor) {
+void VertexFaceSearch::search(const StepScene& scene, KeptFeatures& kept) {
     for (const fast::Pair& pair : pairs_) {
         Box reached = grown(bodies_[pair.a].box, bodies_[pair.a].grow + bodies_[pair.b].grow);
         intersect(reached, bodies_[pair.b].box);
         bodies_.reach(pair.b, reached);
     }
-    bodies_.make_boxes(scene, kept_);
-    workers_.grow(scene.workers->count());
+    bodies_.make_boxes(scene, kept);
+    lists_.grow(scene.workers->count());
     join_pairs(
-        std::span<const fast::Pair>(pairs_), workers_, *scene.workers,
+        std::span<const fast::Pair>(pairs_), lists_, *scene.workers,
         [&](const fast::Pair& pair) { return bodies_[pair.b].tile_count(); },
-        [&](const fast::Pair& pair, Worker& lists) { return list(pair, visitor, lists); },
-        [&](const fast::Pair& pair, const Worker& lists, std::size_t begin, std::size_t end,
-            std::uint32_t w) { search_tiles(pair, lists, begin, end, visitor, w); });
-    workers_.level();
+        [&](const fast::Pair& pair, Lists& lists) { return list(pair, lists); },
+        [&](const fast::Pair& pair, const Lists& lists, std::size_t first, std::size_t last,
+            std::uint32_t w) { search_tiles(pair, lists, first, last, w); });
+    lists_.level();
 }
 
 // ---- which vertices and faces ---------------------------------------------------------------------
 
 // Tiles of b and vertices of a that are in reach of each other's bodies.
-std::size_t VertexFaceSearch::list(const fast::Pair& pair, const NearFacesVisitor& visitor,
-                                   Worker& worker) const {
+std::size_t VertexFaceSearch::list(const fast::Pair& pair, Lists& lists) const {
     const SearchedBody &a = bodies_[pair.a], &b = bodies_[pair.b];
     const float reach = a.grow + b.grow;
     const Box* const tile_boxes = bodies_.tile_boxes(pair.b);
     // The tiles first, as there are less of them.
-    list_overlaps(tile_boxes, b.tile_count(), grown(a.box, reach), worker.tiles);
-    if (worker.tiles.empty()) return 0;
+    list_overlaps(tile_boxes, b.tile_count(), grown(a.box, reach), lists.tiles);
+    if (lists.tiles.empty()) return 0;
     Box around_tiles = empty_box;
-    for (const std::uint32_t tile : worker.tiles) add(around_tiles, tile_boxes[tile]);
+    for (const std::uint32_t tile : lists.tiles) add(around_tiles, tile_boxes[tile]);
     const Box region = grown(around_tiles, reach);
-    list_found(a.block_count(), worker.blocks, [&](std::uint32_t first, std::uint32_t some) {
+    list_found(a.block_count(), lists.blocks, [&](std::uint32_t first, std::uint32_t some) {
         return fast::find_blocks(a.blocks.blocks + first, a.blocks.groups + first / fast::group_blocks, some,
                                  region);
     });
-    worker.vertices.clear();
-    for (const std::uint32_t block : worker.blocks) {
+    lists.vertices.clear();
+    for (const std::uint32_t block : lists.blocks) {
         const std::uint32_t begin = a.first_of_block[block], end = a.first_of_block[block + 1];
-        reserve_growing(worker.vertices, worker.vertices.size() + (end - begin));
+        reserve_growing(lists.vertices, lists.vertices.size() + (end - begin));
         for (std::uint32_t v = begin; v < end; ++v)
-            if (overlap(a.vertex_box(v), region)) worker.vertices.push_back(v);
+            if (overlap(a.vertex_box(v), region)) lists.vertices.push_back(v);
     }
-    visitor.leave_out(pair.a, pair.b, worker.vertices);
-    if (worker.vertices.empty()) return 0;
-    make_runs(a, worker);
+    leave_out(pair.a, pair.b, lists.vertices);
+    if (lists.vertices.empty()) return 0;
+    make_runs(a, lists);
     Box around_vertices = empty_box;
-    for (const Box& group : worker.runs.groups) add(around_vertices, group);
+    for (const Box& group : lists.runs.groups) add(around_vertices, group);
     const Box reached = grown(around_vertices, reach);
-    erase_if(worker.tiles, [&](std::uint32_t t) { return !overlap(tile_boxes[t], reached); });
-    return worker.tiles.size();
+    erase_if(lists.tiles, [&](std::uint32_t t) { return !overlap(tile_boxes[t], reached); });
+    return lists.tiles.size();
 }
 
 // From the blocks and the vertices that are left of them.
-void VertexFaceSearch::make_runs(const SearchedBody& body, Worker& worker) const {
-    worker.first_of_run.clear();
-    worker.runs.clear();
-    const Array<std::uint32_t>& vertices = worker.vertices;
-    auto block = worker.blocks.begin();
+void VertexFaceSearch::make_runs(const SearchedBody& body, Lists& lists) const {
+    lists.first_of_run.clear();
+    lists.runs.clear();
+    const Array<std::uint32_t>& vertices = lists.vertices;
+    auto block = lists.blocks.begin();
     for (std::uint32_t i = 0; i < vertices.size();) {
         while (body.first_of_block[*block + 1] <= vertices[i]) ++block;
         const std::uint32_t end = body.first_of_block[*block + 1];
-        reserve_growing(worker.first_of_run, worker.first_of_run.size() + 2);
-        worker.first_of_run.push_back(i);
+        reserve_growing(lists.first_of_run, lists.first_of_run.size() + 2);
+        lists.first_of_run.push_back(i);
         Box run = empty_box;
         for (; i < vertices.size() && vertices[i] < end; ++i) add(run, body.vertex_box(vertices[i]));
-        worker.runs.push_back(run);
+        lists.runs.push_back(run);
     }
-    worker.first_of_run.push_back(static_cast<std::uint32_t>(vertices.size()));
+    lists.first_of_run.push_back(static_cast<std::uint32_t>(vertices.size()));
 }
 
-// The tiles [begin, end) of the list against all of its vertices.
-void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Worker& lists, std::size_t begin,
-                                    std::size_t end, NearFacesVisitor& visitor, std::uint32_t worker) const {
+// The tiles [first, last) of the list against all of its vertices.
+void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Lists& lists, std::size_t first,
+                                    std::size_t last, std::uint32_t worker) {
     constexpr std::uint32_t at_once = 64;
     const SearchedBody &a = bodies_[pair.a], &b = bodies_[pair.b];
     const float reach = a.grow + b.grow;
@@ -196,8 +195,8 @@ void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Worker& lists,
     std::array<std::uint32_t, at_once> places, met_faces;
     std::array<Box, at_once> boxes;
     std::array<NearFaces, at_once> near;
-    visitor.begin({pair.a, pair.b, lists.vertices, b.features}, worker);
-    for (std::size_t i = begin; i < end; ++i) {
+    begin({pair.a, pair.b, lists.vertices, b.features}, worker);
+    for (std::size_t i = first; i < last; ++i) {
         const SurfaceTile& tile = b.features->tiles[lists.tiles[i]];
         const Box box = grown(bodies_.tile_boxes(pair.b)[lists.tiles[i]], reach);
         bool is_loaded = false;
@@ -215,7 +214,7 @@ void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Worker& lists,
                 near[found] = {places[k], met_faces[k]};
                 found += met_faces[k] != 0;
             }
-            if (found > 0) visitor.visit(tile, std::span(near).first(found), worker);
+            if (found > 0) visit(tile, std::span(near).first(found), worker);
             count = 0;
         };
         lists.runs.for_overlaps(box, [&](std::size_t run) {
@@ -228,7 +227,7 @@ void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Worker& lists,
         });
         if (count > 0) compare();
     }
-    visitor.end(worker);
+    end(worker);
 }
 
 } // namespace vox

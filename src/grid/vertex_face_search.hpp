@@ -33,36 +33,31 @@ struct NearFaces {
     std::uint32_t place, faces;
 };
 
-// Says which vertices count, and takes what is found: between begin() and end() of a worker is what it finds
-// in some tiles of a pair, tile by tile. Calls of different workers may be concurrent.
-class NearFacesVisitor {
-public:
+class VertexFaceSearch {
+protected:
+    explicit VertexFaceSearch(std::pmr::memory_resource* memory);
+    ~VertexFaceSearch() = default;
+
+    // Finds vertices and faces of different bodies that may collide, and of which one moved since the last
+    // step, as far as the engine knows; no such pair that is within `margin` is left out.
+    void find_near(const StepScene& scene, double margin, KeptFeatures& kept);
+    // Finds likewise vertices and faces that may meet on their straight way from the previous positions,
+    // those without data standing still, to the present ones. Throws MeshError with NON_FINITE or LIMIT for a
+    // previous position.
+    void find_meeting(const StepScene& scene, std::span<const Positions> previous, KeptFeatures& kept);
+
+private:
     // Takes those vertices of body a, in ascending order, out of the list that are of no interest to faces of
     // body b.
     virtual void leave_out(std::uint32_t a, std::uint32_t b, Array<std::uint32_t>& vertices) const = 0;
+    // Between begin() and end() of a worker is what it finds in some tiles of a pair, tile by tile. Calls of
+    // different workers may be concurrent.
     virtual void begin(const VertexFacePair& pair, std::uint32_t worker) = 0;
     virtual void visit(const SurfaceTile& tile, std::span<const NearFaces> near, std::uint32_t worker) = 0;
     virtual void end(std::uint32_t worker) = 0;
 
-protected:
-    ~NearFacesVisitor() = default;
-};
-
-class VertexFaceSearch {
-public:
-    VertexFaceSearch(KeptFeatures& kept, std::pmr::memory_resource* memory);
-
-    // Finds vertices and faces of different bodies that may collide, and of which one moved since the last
-    // step, as far as the engine knows; no such pair that is within `margin` is left out.
-    void find_near(const StepScene& scene, double margin, NearFacesVisitor& visitor);
-    // Finds likewise vertices and faces that may meet on their straight way from the previous positions,
-    // those without data standing still, to the present ones. Throws MeshError with NON_FINITE or LIMIT for a
-    // previous position.
-    void find_meeting(const StepScene& scene, std::span<const Positions> previous, NearFacesVisitor& visitor);
-
-private:
-    struct Worker {
-        explicit Worker(std::pmr::memory_resource* memory)
+    struct Lists {
+        explicit Lists(std::pmr::memory_resource* memory)
             : tiles(memory), blocks(memory), vertices(memory), first_of_run(memory), runs(memory) {}
         auto buffers() {
             return std::tuple_cat(runs.buffers(), std::tie(tiles, blocks, vertices, first_of_run));
@@ -76,13 +71,11 @@ private:
 
     void move_bodies(const StepScene& scene, std::span<const Positions> previous);
     void find_pairs(const StepScene& scene, const fast::PairRules& rules);
-    void search(const StepScene& scene, NearFacesVisitor& visitor);
-    std::size_t list(const fast::Pair& pair, const NearFacesVisitor& visitor, Worker& worker) const;
-    void make_runs(const SearchedBody& body, Worker& worker) const;
-    void search_tiles(const fast::Pair& pair, const Worker& lists, std::size_t begin, std::size_t end,
-                      NearFacesVisitor& visitor, std::uint32_t worker) const;
-
-    KeptFeatures& kept_;
+    void search(const StepScene& scene, KeptFeatures& kept);
+    std::size_t list(const fast::Pair& pair, Lists& lists) const;
+    void make_runs(const SearchedBody& body, Lists& lists) const;
+    void search_tiles(const fast::Pair& pair, const Lists& lists, std::size_t first, std::size_t last,
+                      std::uint32_t worker);
 
     // One search.
     Array<float> packed_;                  // previous positions
@@ -91,7 +84,7 @@ private:
     Array<Box> body_boxes_;
     fast::PairBuffers pair_buffers_;
     Array<fast::Pair> pairs_; // vertices of a, faces of b
-    PerWorker<Worker> workers_;
+    PerWorker<Lists> lists_;  // of each worker
 };
 
 } // namespace vox
