@@ -118,18 +118,21 @@ void Constraints::reserve(std::size_t body_count, std::size_t contact_count) {
 Constraints::Ends Constraints::list(const ConstraintSources& from) {
     Ends ends{};
     place_.assign(kinds * from.pairs.size(), 0);
-    listed_.clear();
-    reserve_sparingly(listed_,
-                      from.hits.size() + from.edges.size() + from.proximities.size() + from.impacts.size());
+    const std::size_t most =
+        from.hits.size() + from.edges.size() + from.proximities.size() + from.impacts.size();
+    reserve_sparingly(listed_, most);
+    if (listed_.size() < most) listed_.resize(most);
     reserve_growing(now_.pairs, from.pairs.size()); // which are the same for all constraints of a step
     now_.pairs.clear();
     for (const vox_pair& pair : from.pairs) now_.pairs.push_back({pair.body_a, pair.body_b});
     PairIndex<IdPair> index(now_.pairs);
+    Listed* end = listed_.data();
+    const auto count = [&] { return static_cast<std::size_t>(end - listed_.data()); };
     const auto add = [&](vox_body a, vox_body b, vox_constraint_kind kind, std::size_t source) {
         const std::size_t pair = index(a, b);
         if (pair >= from.pairs.size() || !from.chosen[pair]) return;
         ++place_[kinds * pair + kind];
-        listed_.push_back({static_cast<std::uint32_t>(pair), static_cast<std::uint32_t>(source)});
+        *end++ = {static_cast<std::uint32_t>(pair), static_cast<std::uint32_t>(source)};
     };
     if (from.penetrations) {
         const std::span<const Penetration> all = from.penetrations->all();
@@ -141,10 +144,10 @@ Constraints::Ends Constraints::list(const ConstraintSources& from) {
                 add(from.bodies[from.hits[i].body_a].mesh_id, from.bodies[from.hits[i].body_b].mesh_id,
                     VOX_CONSTRAINT_INSIDE, i);
     }
-    ends[VOX_CONSTRAINT_INSIDE] = listed_.size();
+    ends[VOX_CONSTRAINT_INSIDE] = count();
     for (std::size_t i = 0; i < from.edges.size(); ++i)
         add(from.edges[i].body_a, from.edges[i].body_b, VOX_CONSTRAINT_EDGE, i);
-    ends[VOX_CONSTRAINT_EDGE] = listed_.size();
+    ends[VOX_CONSTRAINT_EDGE] = count();
     std::size_t impact = 0; // no vertex has two constraints with one body
     for (std::size_t i = 0; i < from.proximities.size(); ++i) {
         const auto place = place_of(from.proximities[i]);
@@ -152,16 +155,16 @@ Constraints::Ends Constraints::list(const ConstraintSources& from) {
         if (impact < from.impacts.size() && place_of(from.impacts[impact]) == place) continue;
         add(from.proximities[i].body_a, from.proximities[i].body_b, VOX_CONSTRAINT_PROXIMITY, i);
     }
-    ends[VOX_CONSTRAINT_PROXIMITY] = listed_.size();
+    ends[VOX_CONSTRAINT_PROXIMITY] = count();
     for (std::size_t i = 0; i < from.impacts.size(); ++i)
         add(from.impacts[i].body_a, from.impacts[i].body_b, VOX_CONSTRAINT_IMPACT, i);
-    ends[VOX_CONSTRAINT_IMPACT] = listed_.size();
+    ends[VOX_CONSTRAINT_IMPACT] = count();
     return ends;
 }
 
 // Those of one pair and kind next to each other, in the order in which they were listed.
 void Constraints::order(const ConstraintSources& from, const Ends& ends) {
-    const std::size_t count = listed_.size();
+    const std::size_t count = ends.back();
     check_contact_count(count, "constraints");
     make_room(count, from.pairs.size()); // all that can fail
     found_ = false;
@@ -356,6 +359,80 @@ const Hit& hit_of(const ConstraintSources& from, std::uint32_t source) noexcept 
                                        : source];
 }
 
+void put(double (&to)[3][point_block], std::size_t i, const Vec3d& x) noexcept {
+    to[0][i] = x.x;
+    to[1][i] = x.y;
+    to[2][i] = x.z;
+}
+
+// Contacts that are weighed together. Their tetrahedra and positions are anywhere in memory, and waiting for
+// them takes longer than the arithmetic: while a block is written, those of the next one arrive in the cache.
+struct HitBlock {
+    std::array<Hit, point_block> hits;
+    std::size_t count = 0;
+
+    void fetch(const ConstraintSources& from, std::span<const std::uint32_t> sources) noexcept {
+        count = std::min(point_block, sources.size());
+        for (std::size_t i = 0; i < count; ++i) {
+            hits[i] = hit_of(from, sources[i]);
+            prefetch(&from.bodies[hits[i].body_b].tets[hits[i].tet]);
+        }
+    }
+    void prefetch_positions(std::span<const Body> bodies) const noexcept {
+        for (std::size_t i = 0; i < count; ++i) {
+            const Body& b = bodies[hits[i].body_b];
+            const Positions &of_a = bodies[hits[i].body_a].positions, &of_b = b.positions;
+            prefetch(of_a.data + hits[i].vertex * of_a.byte_stride);
+            for (const std::uint32_t v : b.tets[hits[i].tet].v) prefetch(of_b.data + v * of_b.byte_stride);
+        }
+    }
+    void gather(std::span<const Body> bodies, PointBlock& block) const noexcept {
+        for (std::size_t i = 0; i < count; ++i) {
+            const Body& b = bodies[hits[i].body_b];
+            put(block.point, i, bodies[hits[i].body_a].positions.exact(hits[i].vertex));
+            for (std::size_t c = 0; c < 4; ++c)
+                put(block.corner[c], i, b.positions.exact(b.tets[hits[i].tet].v[c]));
+        }
+        for (std::size_t i = count; i % 8; ++i) { // whole registers are computed
+            put(block.point, i, {0, 0, 0});
+            for (auto& corner : block.corner) put(corner, i, {0, 0, 0});
+        }
+    }
+};
+
+// Writes all but the previous one.
+void write_vertex(const ConstraintSources& from, const Hit& hit, std::uint32_t source, const Vec3d& p,
+                  const std::array<double, 4>& weights, const Vec3d& miss, vox_constraint& c) noexcept {
+    const Body &a = from.bodies[hit.body_a], &b = from.bodies[hit.body_b];
+    c.count_a = 1;
+    c.count = 5;
+    c.vertices[0] = hit.vertex;
+    c.weights[0] = 1;
+    for (std::size_t k = 0; k < 4; ++k) {
+        c.vertices[1 + k] = b.tets[hit.tet].v[k];
+        c.weights[1 + k] = -weights[k];
+    }
+    c.element_b = hit.tet;
+    write_vector(c.position, p);
+    c.time = from.meetings.empty() ? 1 : time_of(from.meetings, a.mesh_id, hit.vertex, b.mesh_id);
+    c.reserved = 0;
+    c.state = VOX_DEPTH_UNKNOWN;
+    c.gap = 0;
+    Vec3d normal{0, 0, 0};
+    if (from.penetrations) {
+        const Depth& depth = from.penetrations->depths()[source];
+        c.state = from.penetrations->all()[source].state;
+        c.gap = depth.depth > 0 ? -depth.depth : 0;
+        normal = depth.way_out();
+    }
+    write_vector(c.normal, normal);
+    c.offset = c.gap + dot(normal, miss);
+    if (from.method != VOX_DEPTH_METHOD_CLOSEST || c.state == VOX_DEPTH_UNKNOWN) return;
+    const std::uint32_t triangle = from.penetrations->closest()[source];
+    if (triangle != no_triangle)
+        write_triangle({from.topologies[hit.body_b], b.tets, b.positions}, triangle, p, c);
+}
+
 } // namespace
 
 // If a pair's constraints are those of the step before, copies them.
@@ -379,59 +456,26 @@ bool Constraints::carry_inside(const ConstraintSources& from, const Run& run,
 }
 
 // A block at a time, whatever pairs they are of: gather the points and the corners of their tetrahedra, weigh
-// them, write. Tetrahedra and positions are anywhere in memory, and waiting for them takes longer than the
-// arithmetic: while a block is written, those of the next one arrive in the cache.
+// them, write.
 void Constraints::write_inside(const ConstraintSources& from, const Run& run, Previous& previous) noexcept {
     if (run.begin == run.end) return;
     const std::span<const Body> bodies = from.bodies;
-    std::array<Hit, point_block> hits, next_hits;
-    std::size_t next_count = 0;
-    const auto prefetch_tets = [&](std::size_t begin) {
-        next_count = std::min(point_block, run.end - begin);
-        for (std::size_t i = 0; i < next_count; ++i) {
-            next_hits[i] = hit_of(from, sources_[begin + i]);
-            prefetch(&bodies[next_hits[i].body_b].tets[next_hits[i].tet]);
-        }
-    };
-    const auto prefetch_positions = [&] {
-        for (std::size_t i = 0; i < next_count; ++i) {
-            const Hit& hit = next_hits[i];
-            const Body& b = bodies[hit.body_b];
-            const Positions &of_a = bodies[hit.body_a].positions, &of_b = b.positions;
-            prefetch(of_a.data + hit.vertex * of_a.byte_stride);
-            for (const std::uint32_t v : b.tets[hit.tet].v) prefetch(of_b.data + v * of_b.byte_stride);
-        }
-    };
+    const std::span<const std::uint32_t> sources = std::span(sources_).first(run.end);
     std::uint32_t pair = run.pair;
     previous.begin(now_.pairs[pair]);
     PointBlock block;
     WeightBlock weights;
-    prefetch_tets(run.begin);
-    prefetch_positions();
+    HitBlock now, next;
+    next.fetch(from, sources.subspan(run.begin));
+    next.prefetch_positions(bodies);
     for (std::size_t begin = run.begin; begin < run.end; begin += point_block) {
-        const std::size_t count = next_count;
-        hits = next_hits;
-        prefetch_tets(begin + count);
-        const auto put = [](double(&to)[3][point_block], std::size_t i, const Vec3d& x) {
-            to[0][i] = x.x;
-            to[1][i] = x.y;
-            to[2][i] = x.z;
-        };
-        for (std::size_t i = 0; i < count; ++i) {
-            const Hit& hit = hits[i];
-            const Body& b = bodies[hit.body_b];
-            put(block.point, i, bodies[hit.body_a].positions.exact(hit.vertex));
-            for (std::size_t c = 0; c < 4; ++c)
-                put(block.corner[c], i, b.positions.exact(b.tets[hit.tet].v[c]));
-        }
-        prefetch_positions();
-        for (std::size_t i = count; i % 8; ++i) { // whole registers are computed
-            put(block.point, i, {0, 0, 0});
-            for (auto& corner : block.corner) put(corner, i, {0, 0, 0});
-        }
-        weigh(block, count, weights);
-        for (std::size_t i = 0; i < count; ++i) {
-            const Hit& hit = hits[i];
+        now = next;
+        next.fetch(from, sources.subspan(begin + now.count));
+        now.gather(bodies, block);
+        next.prefetch_positions(bodies);
+        weigh(block, now.count, weights);
+        for (std::size_t i = 0; i < now.count; ++i) {
+            const Hit& hit = now.hits[i];
             const Body &a = bodies[hit.body_a], &b = bodies[hit.body_b];
             if (begin + i >= pair_offsets_[pair + 1]) {
                 while (begin + i >= pair_offsets_[pair + 1]) ++pair;
@@ -439,36 +483,13 @@ void Constraints::write_inside(const ConstraintSources& from, const Run& run, Pr
             }
             vox_constraint& c = now_.all[begin + i];
             write_pair(a, b, VOX_CONSTRAINT_INSIDE, pair, c);
-            c.count_a = 1;
-            c.count = 5;
-            c.vertices[0] = hit.vertex;
-            c.weights[0] = 1;
-            for (std::size_t k = 0; k < 4; ++k) {
-                c.vertices[1 + k] = b.tets[hit.tet].v[k];
-                c.weights[1 + k] = -weights.weight[k][i];
-            }
-            c.element_b = hit.tet;
-            const Vec3d p{block.point[0][i], block.point[1][i], block.point[2][i]};
-            write_vector(c.position, p);
-            c.time = from.meetings.empty() ? 1 : time_of(from.meetings, a.mesh_id, hit.vertex, b.mesh_id);
             c.previous = previous.find(VOX_CONSTRAINT_INSIDE, {a.mesh_id, {hit.vertex, 0, 0, 0, 0}});
-            c.reserved = 0;
-            c.state = VOX_DEPTH_UNKNOWN;
-            c.gap = 0;
-            Vec3d normal{0, 0, 0};
-            if (from.penetrations) {
-                const std::uint32_t source = sources_[begin + i];
-                const Depth& depth = from.penetrations->depths()[source];
-                c.state = from.penetrations->all()[source].state;
-                c.gap = depth.depth > 0 ? -depth.depth : 0;
-                normal = depth.way_out();
-            }
-            write_vector(c.normal, normal);
-            c.offset = c.gap + dot(normal, Vec3d{weights.miss[0][i], weights.miss[1][i], weights.miss[2][i]});
-            if (from.method != VOX_DEPTH_METHOD_CLOSEST || c.state == VOX_DEPTH_UNKNOWN) continue;
-            const std::uint32_t triangle = from.penetrations->closest()[sources_[begin + i]];
-            if (triangle != no_triangle)
-                write_triangle({from.topologies[hit.body_b], b.tets, b.positions}, triangle, p, c);
+            const auto at = [i](const double(&of)[3][point_block]) {
+                return Vec3d{of[0][i], of[1][i], of[2][i]};
+            };
+            const auto& w = weights.weight;
+            write_vertex(from, hit, sources[begin + i], at(block.point), {w[0][i], w[1][i], w[2][i], w[3][i]},
+                         at(weights.miss), c);
         }
     }
 }
