@@ -1,14 +1,9 @@
 // What a grid answers between steps: locators, and views of the last step's results.
 #include "grid/grid.hpp"
 
-#include "base/array.hpp"
-#include "base/error.hpp"
-#include "base/llu.hpp"
 #include "base/structs.hpp"
 #include "grid/contacts.hpp"
 #include "mesh/check.hpp"
-
-#include <algorithm>
 
 using namespace vox;
 

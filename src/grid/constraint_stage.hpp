@@ -4,22 +4,37 @@
 
 #include "base/array.hpp"
 #include "base/counters.hpp"
+#include "base/scene.hpp"
 #include "depth/stage.hpp"
 #include "depth/surface_trees.hpp"
+#include "fast/engine.hpp"
 #include "grid/constraints.hpp"
 #include "grid/mesh_table.hpp"
-#include "grid/step_data.hpp"
 #include "grid/surface_stages.hpp"
 
 #include <vox/vox.h>
 
-#include <cstddef>
 #include <cstdint>
 #include <memory_resource>
 #include <optional>
 #include <span>
 
 namespace vox {
+
+// The arrays of one step, kept from step to step.
+struct StepData {
+    explicit StepData(std::pmr::memory_resource* memory)
+        : bodies(memory), prepared(memory), topologies(memory), versions(memory), hits(memory),
+          contacts(memory), interiors(memory) {}
+
+    Array<Body> bodies;
+    Array<fast::PreparedBody> prepared; // of each body that has tiles
+    Array<const Topology*> topologies;  // of each body
+    Array<SurfaceVersion> versions;     // of each body, while a stage looks at surfaces
+    Array<Hit> hits;                    // of contacts, once these are made
+    Array<vox_contact> contacts;
+    Array<std::uint8_t> interiors; // whether each contact is interior
+};
 
 class ConstraintStage {
 public:

@@ -253,11 +253,11 @@ private:
 
 namespace {
 
-// Writes stencil, normal, gap, state, element and time of a constraint that is not INSIDE.
+// Writes stencil, normal, gap, state, element and time of a constraint that is not INSIDE. Returns body_a.
 struct Writer {
     const ConstraintSources& from;
 
-    void write_edge(std::uint32_t source, vox_constraint& c) const {
+    vox_body write_edge(std::uint32_t source, vox_constraint& c) const {
         const EdgeContact& contact = from.edges[source];
         c.count_a = 2;
         c.count = 5;
@@ -270,13 +270,14 @@ struct Writer {
         c.time = 1;
         c.state = contact.kind == CrossingKind::through ? VOX_DEPTH_UNKNOWN : VOX_DEPTH_TOUCHING;
         if (c.state == VOX_DEPTH_TOUCHING) std::copy_n(contact.normal, 3, c.normal);
-        if (from.edge_depths.empty() || c.state == VOX_DEPTH_TOUCHING) return;
+        if (from.edge_depths.empty() || c.state == VOX_DEPTH_TOUCHING) return contact.body_a;
         const Depth& depth = from.edge_depths[source];
         c.state = !(depth.depth > 0)                 ? VOX_DEPTH_TOUCHING
                   : contact.body_a == contact.body_b ? VOX_DEPTH_PLANE
                                                      : VOX_DEPTH_CLOSEST;
         c.gap = depth.depth > 0 ? -depth.depth : 0;
         std::copy_n(depth.direction, 3, c.normal);
+        return contact.body_a;
     }
 
     // The vertex of an impact or a proximity, and its face.
@@ -290,22 +291,24 @@ struct Writer {
         c.element_b = contact.tet;
     }
 
-    void write_proximity(std::uint32_t source, vox_constraint& c) const {
+    vox_body write_proximity(std::uint32_t source, vox_constraint& c) const {
         const Proximity& contact = from.proximities[source];
         write_face(contact, contact.face_weights, c);
         c.gap = contact.distance;
         c.state = contact.distance > 0 ? VOX_DEPTH_CLOSEST : VOX_DEPTH_TOUCHING;
         std::copy_n(contact.normal, 3, c.normal);
         c.time = 1;
+        return contact.body_a;
     }
 
-    void write_impact(std::uint32_t source, vox_constraint& c) const {
+    vox_body write_impact(std::uint32_t source, vox_constraint& c) const {
         const Impact& impact = from.impacts[source];
         write_face(impact, impact.weights, c);
         c.gap = impact.gap;
         c.state = VOX_DEPTH_PLANE;
         std::copy_n(impact.normal, 3, c.normal);
         c.time = impact.time;
+        return impact.body_a;
     }
 };
 
@@ -322,17 +325,9 @@ void Constraints::write_others(const ConstraintSources& from, const Run& run, Pr
         vox_constraint& c = now_.all[i];
         c = {};
         c.weights[0] = 1;
-        vox_body id_a = VOX_NULL_BODY;
-        if (run.kind == VOX_CONSTRAINT_EDGE) {
-            writer.write_edge(source, c);
-            id_a = from.edges[source].body_a;
-        } else if (run.kind == VOX_CONSTRAINT_PROXIMITY) {
-            writer.write_proximity(source, c);
-            id_a = from.proximities[source].body_a;
-        } else {
-            writer.write_impact(source, c);
-            id_a = from.impacts[source].body_a;
-        }
+        const vox_body id_a = run.kind == VOX_CONSTRAINT_EDGE        ? writer.write_edge(source, c)
+                              : run.kind == VOX_CONSTRAINT_PROXIMITY ? writer.write_proximity(source, c)
+                                                                     : writer.write_impact(source, c);
         const bool swapped = id_a != lower;
         const Body &a = *bodies[swapped], &b = *bodies[!swapped];
         write_pair(a, b, run.kind, run.pair, c);

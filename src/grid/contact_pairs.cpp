@@ -2,12 +2,9 @@
 // runs of contacts by pair: those that follow each other with the same body_a and body_b.
 #include "grid/contact_pairs.hpp"
 
-#include "base/array.hpp"
 #include "base/error.hpp"
-#include "base/room.hpp"
 #include "mesh/ids.hpp"
 
-#include <algorithm>
 #include <numeric>
 
 namespace vox {
@@ -35,19 +32,18 @@ void for_runs(std::span<const vox_contact> contacts, Visit&& visit) {
     }
 }
 
-// Adds those of `more`, which ascend, that `pairs` lacks, as pair_of(element) without contacts; calls
-// known(pair) for the others. From behind, so that each pair moves once.
-template <class Element, class PairOf, class Known>
-void add(std::span<const Element> more, Array<vox_pair>& pairs, PairOf&& pair_of, Known&& known) {
-    const auto id_of = [](const auto& pair) { return IdPair{pair.body_a, pair.body_b}; };
+} // namespace
+
+// From behind, so that each pair moves once.
+void add_pairs(std::span<const vox_pair> more, Array<vox_pair>& pairs) {
     std::size_t added = 0;
     auto at = pairs.begin();
-    for (const Element& element : more) {
-        while (at != pairs.end() && id_of(*at) < id_of(element)) ++at;
-        if (at == pairs.end() || id_of(*at) != id_of(element))
+    for (const vox_pair& pair : more) {
+        while (at != pairs.end() && ids_of(*at) < ids_of(pair)) ++at;
+        if (at == pairs.end() || ids_of(*at) != ids_of(pair))
             ++added;
-        else
-            known(*at);
+        else if (pair.state == VOX_PAIR_ENDED)
+            at->state = VOX_PAIR_ENDED;
     }
     if (added == 0) return;
     // Those without contacts name the place of the next one's.
@@ -57,30 +53,15 @@ void add(std::span<const Element> more, Array<vox_pair>& pairs, PairOf&& pair_of
     pairs.resize(pairs.size() + added);
     std::size_t to = pairs.size();
     for (std::size_t i = more.size(); i-- > 0;) {
-        while (left > 0 && id_of(more[i]) < id_of(pairs[left - 1])) {
+        while (left > 0 && ids_of(more[i]) < ids_of(pairs[left - 1])) {
             pairs[--to] = pairs[--left];
             end = pairs[to].first_contact;
         }
-        if (left > 0 && id_of(more[i]) == id_of(pairs[left - 1])) continue;
-        pairs[--to] = pair_of(more[i]);
+        if (left > 0 && ids_of(more[i]) == ids_of(pairs[left - 1])) continue;
+        pairs[--to] = more[i];
         pairs[to].first_contact = end;
         pairs[to].contact_count = 0;
     }
-}
-
-} // namespace
-
-void add_pairs(std::span<const IdPair> more, vox_pair_state state, Array<vox_pair>& pairs) {
-    add(
-        more, pairs,
-        [state](const IdPair& pair) { return vox_pair{pair.body_a, pair.body_b, 0, 0, state, 0, 0, 0}; },
-        [](const vox_pair&) {});
-}
-
-void add_ended(std::span<const vox_pair> ended, Array<vox_pair>& pairs) {
-    add(
-        ended, pairs, [](const vox_pair& pair) { return pair; },
-        [](vox_pair& near) { near.state = VOX_PAIR_ENDED; });
 }
 
 void check_contact_count(std::size_t count, const char* what) {

@@ -41,23 +41,25 @@ struct IdPair {
 // Throws Error(LIMIT) where a step has more than VOX_MAX_CONTACTS of `what`, e.g. "edges".
 void check_contact_count(std::size_t count, const char* what);
 
-// Adds those of `more`, which ascend, that `pairs` lacks, without contacts and user data.
-void add_pairs(std::span<const IdPair> more, vox_pair_state state, Array<vox_pair>& pairs);
-// The same for pairs that touch no more; those that `pairs` has, as they are near, get that state.
-void add_ended(std::span<const vox_pair> ended, Array<vox_pair>& pairs);
+inline IdPair ids_of(const vox_pair& pair) noexcept { return {pair.body_a, pair.body_b}; }
 
-// Replaces `pairs` by those of contacts or the like, each once, in order.
+// Adds those of `more`, which ascend, that `pairs` lacks, without contacts. Those that it has and that ended
+// get that state: they are near.
+void add_pairs(std::span<const vox_pair> more, Array<vox_pair>& pairs);
+
+// Replaces `pairs` by those of contacts or the like, each once, in order, without user data.
 template <class Contact>
-void list_pairs(std::span<const Contact> contacts, Array<IdPair>& pairs) {
+void list_pairs(std::span<const Contact> contacts, vox_pair_state state, Array<vox_pair>& pairs) {
     pairs.clear();
     for (const Contact& contact : contacts) {
-        const IdPair pair{std::min(contact.body_a, contact.body_b), std::max(contact.body_a, contact.body_b)};
-        if (!pairs.empty() && pairs.back() == pair) continue;
+        const auto [a, b] = std::minmax(contact.body_a, contact.body_b);
+        if (!pairs.empty() && ids_of(pairs.back()) == IdPair{a, b}) continue;
         reserve_growing(pairs, pairs.size() + 1);
-        pairs.push_back(pair);
+        pairs.push_back({a, b, 0, 0, state, 0, 0, 0});
     }
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    std::ranges::sort(pairs, {}, ids_of);
+    const auto same = [](const vox_pair& x, const vox_pair& y) { return ids_of(x) == ids_of(y); };
+    pairs.erase(std::unique(pairs.begin(), pairs.end(), same), pairs.end());
 }
 
 // Makes what vox_pair_view has of `contacts` in canonical order: the pairs, BEGAN and without user data, and

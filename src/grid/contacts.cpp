@@ -3,7 +3,6 @@
 // digit comes first, and the others piece by piece.
 #include "grid/contacts.hpp"
 
-#include "base/array.hpp"
 #include "base/parallel.hpp"
 
 #include <algorithm>

@@ -8,7 +8,6 @@
 #include <vox/vox.h>
 
 #include <cstdint>
-#include <memory_resource>
 #include <span>
 
 namespace vox {

@@ -3,20 +3,14 @@
 // what winding numbers have certified is left out (fast/winding/certificate.cpp).
 #include "grid/edge_contacts.hpp"
 
-#include "base/array.hpp"
-#include "base/bits.hpp"
 #include "base/parallel.hpp"
 #include "base/room.hpp"
 #include "base/vectors.hpp"
-#include "exact/crossing.hpp"
 #include "exact/facet_normal.hpp"
-#include "exact/predicates.hpp"
 #include "mesh/filter.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <cmath>
 
 namespace vox {
 
@@ -65,7 +59,7 @@ void EdgeContacts::find(const StepScene& scene, KeptFeatures& kept) {
     unchanged_ = found_.size() == carried_ && carried_ == contacts_.size();
     if (unchanged_) return;
     put_in_order();
-    vox::list_pairs(std::span<const EdgeContact>(contacts_), pairs_);
+    vox::list_pairs(std::span<const EdgeContact>(contacts_), VOX_PAIR_BEGAN, pairs_);
 }
 
 void EdgeContacts::count(Counters& counters) {

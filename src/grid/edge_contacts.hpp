@@ -51,7 +51,6 @@ struct EdgeContact {
 class EdgeContacts {
 public:
     static constexpr auto time = &Profile::edges_ns;
-    static constexpr vox_pair_state pair_state = VOX_PAIR_BEGAN;
 
     explicit EdgeContacts(std::pmr::memory_resource* memory);
 
@@ -59,7 +58,7 @@ public:
     void count(Counters& counters);
 
     bool is_unchanged() const noexcept { return unchanged_; }
-    std::span<const IdPair> pairs() const noexcept { return pairs_; }
+    std::span<const vox_pair> pairs() const noexcept { return pairs_; }
 
     // Adds them to the sources, and where depths are asked for the way out of those of chosen pairs, by
     // `trees`.
@@ -134,7 +133,7 @@ private:
 
     // Results.
     Array<EdgeContact> contacts_;
-    Array<IdPair> pairs_;
+    Array<vox_pair> pairs_;
     Array<Depth> depths_;
     std::uint64_t carried_ = 0;
     bool unchanged_ = false;

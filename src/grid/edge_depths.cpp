@@ -5,7 +5,6 @@
 #include "base/parallel.hpp"
 #include "base/vectors.hpp"
 #include "exact/facet_normal.hpp"
-#include "exact/predicates.hpp"
 #include "grid/constraints.hpp"
 #include "grid/pairs.hpp"
 

@@ -1,8 +1,6 @@
 #include "grid/grid.hpp"
 
-#include "base/array.hpp"
 #include "base/caller_memory.hpp"
-#include "base/error.hpp"
 #include "base/float_environment.hpp"
 #include "base/llu.hpp"
 #include "base/room.hpp"
@@ -121,15 +119,13 @@ vox_body vox_grid::insert(const vox_mesh_desc& desc, const Body& view, const vox
 
 // What is allowed, but collides with less than one may think: each once, as a program may mean it.
 void vox_grid::warn_of_traps(const Mesh& mesh, vox_body id) {
-    if (!log_.write) return;
-    const auto warn_of = [&](const char* text) noexcept {
-        warn("body %u (slot %u, user data %llu) %s", id, slot_of(id), llu(mesh.user_data()), text);
-    };
-    if (warned_of_edges_ || mesh.tet_count() > 0 || mesh.vertex_count() == 0) return;
+    if (!log_.write || warned_of_edges_ || mesh.tet_count() > 0 || mesh.vertex_count() == 0) return;
     warned_of_edges_ = true;
-    warn_of("has no tetrahedra: its vertices collide with the tetrahedra of other meshes, its edges and "
-            "faces with nothing (said once for a grid; the counter bodies_without_tets counts such "
-            "meshes)");
+    warn("body %u (slot %u, user data %llu) has no tetrahedra: its vertices collide with the tetrahedra of "
+         "other meshes, its edges and "
+         "faces with nothing (said once for a grid; the counter bodies_without_tets counts such "
+         "meshes)",
+         id, slot_of(id), llu(mesh.user_data()));
 }
 
 // The last step of the fast engine does not describe the meshes any more.

@@ -13,14 +13,12 @@
 #include "grid/constraint_stage.hpp"
 #include "grid/mesh_table.hpp"
 #include "grid/pairs.hpp"
-#include "grid/step_data.hpp"
 #include "grid/surface_stages.hpp"
 #include "query/locator.hpp"
 #include "reference/engine.hpp"
 
 #include <vox/vox_cell_size.h>
 
-#include <memory_resource>
 #include <optional>
 
 namespace vox {
@@ -115,7 +113,6 @@ private:
     void detect(bool& carry, vox::Counters& counters, vox::Profile& profile);
     bool make_contacts(bool carry, vox::Counters& counters, vox::Profile& profile);
     bool search_surfaces(vox::Counters& counters, vox::Profile& profile);
-    void find_pairs();
     void make_constraints(const vox_constraint_desc& desc, bool in_step, vox::Counters& counters,
                           vox::Profile& profile);
     void count(vox::Counters& counters);

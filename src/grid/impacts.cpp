@@ -1,6 +1,5 @@
 #include "grid/impacts.hpp"
 
-#include "base/array.hpp"
 #include "base/bits.hpp"
 #include "base/room.hpp"
 #include "base/vectors.hpp"
@@ -73,7 +72,7 @@ void Impacts::list_impacts() {
                             {normal.x, normal.y, normal.z},
                             std::min(dot(normal, p - corner[0]), 0.0)});
     }
-    list_pairs(std::span<const Impact>(impacts_), pairs_);
+    list_pairs(std::span<const Impact>(impacts_), VOX_PAIR_BEGAN, pairs_);
 }
 
 void Impacts::add_to(ConstraintSources& sources, depth::SurfaceTrees&, Workers&) const noexcept {

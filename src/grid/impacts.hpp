@@ -14,7 +14,6 @@
 #include <array>
 #include <cstdint>
 #include <memory_resource>
-#include <span>
 
 namespace vox {
 
@@ -40,8 +39,6 @@ struct MovingTile {
 
 class Impacts final : public LeastFaces<SurfaceMeeting, NoNote, MovingTile> {
 public:
-    static constexpr vox_pair_state pair_state = VOX_PAIR_BEGAN;
-
     explicit Impacts(std::pmr::memory_resource* memory)
         : LeastFaces(memory), bound_(memory), previous_(memory), impacts_(memory) {}
 

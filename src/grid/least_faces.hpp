@@ -49,7 +49,7 @@ public:
     static constexpr auto time = &Profile::margin_ns;
 
     bool is_unchanged() const noexcept { return false; }
-    std::span<const IdPair> pairs() const noexcept { return pairs_; }
+    std::span<const vox_pair> pairs() const noexcept { return pairs_; }
     void clear() noexcept {
         all_.clear();
         pairs_.clear();
@@ -219,7 +219,7 @@ private:
     Array<Element> all_;
 
 protected:
-    Array<IdPair> pairs_; // of bodies with contacts, in order
+    Array<vox_pair> pairs_; // of bodies with contacts, in order
 };
 
 } // namespace vox

@@ -1,18 +1,16 @@
 #include "grid/mesh_table.hpp"
 
 #include "base/error.hpp"
+#include "base/llu.hpp"
 #include "base/room.hpp"
-
-#include <utility>
 
 namespace vox {
 
 void check_limit(std::uint64_t count, std::uint64_t added, std::uint64_t limit, const char* what) {
     if (added > limit - count)
         throw Error(VOX_ERROR_LIMIT,
-                    format("the grid holds %llu %s and cannot take %llu more, the limit is %llu",
-                           static_cast<unsigned long long>(count), what,
-                           static_cast<unsigned long long>(added), static_cast<unsigned long long>(limit)));
+                    format("the grid holds %llu %s and cannot take %llu more, the limit is %llu", llu(count),
+                           what, llu(added), llu(limit)));
 }
 
 void MeshTable::reserve(std::uint32_t mesh_count) {

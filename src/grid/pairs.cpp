@@ -1,20 +1,8 @@
 #include "grid/pairs.hpp"
 
-#include "base/array.hpp"
 #include "base/room.hpp"
 
-#include <algorithm>
-#include <tuple>
-
 namespace vox {
-
-namespace {
-
-bool pair_before(const vox_pair& x, const vox_pair& y) {
-    return std::tie(x.body_a, x.body_b) < std::tie(y.body_a, y.body_b);
-}
-
-} // namespace
 
 Pairs::Pairs(std::pmr::memory_resource* memory)
     : buffers_(memory), pairs_{Array<vox_pair>(memory), Array<vox_pair>(memory)}, ended_(memory),
@@ -47,8 +35,8 @@ void Pairs::compare() {
     auto now = is.begin();
     for (const vox_pair& old : was) {
         if (!touches(old)) continue;
-        while (now != is.end() && pair_before(*now, old)) ++now;
-        if (now != is.end() && !pair_before(old, *now) && touches(*now)) {
+        while (now != is.end() && ids_of(*now) < ids_of(old)) ++now;
+        if (now != is.end() && ids_of(*now) == ids_of(old) && touches(*now)) {
             now->state = VOX_PAIR_PERSISTED;
             ++persisted;
         } else {
@@ -57,7 +45,7 @@ void Pairs::compare() {
         }
     }
     began_ = static_cast<std::uint64_t>(std::ranges::count_if(is, touches)) - persisted;
-    add_ended(ended_, is);
+    add_pairs(ended_, is);
     is_pending_ = true;
 }
 

@@ -59,14 +59,13 @@ public:
     // When a step begins, or the grid is cleared: no pairs until a step ends.
     void hide() noexcept { are_shown_ = is_pending_ = false; }
 
-    // Pairs with contacts, and others that for_others(add) adds by add(pairs, state), which take the place of
+    // Pairs with contacts, and others that for_others(add) adds by add(pairs), which take the place of
     // the last step's with commit(). Calls user_data(body) for each body of a pair.
     template <class ForOthers, class UserData>
     void update(std::span<const vox_contact> contacts, ForOthers&& for_others, std::size_t slots,
                 UserData&& user_data) {
         find_touching(contacts, slots, buffers_, next(), by_pair_);
-        for_others(
-            [this](std::span<const IdPair> pairs, vox_pair_state state) { add_pairs(pairs, state, next()); });
+        for_others([this](std::span<const vox_pair> pairs) { add_pairs(pairs, next()); });
         for (vox_pair& pair : next()) {
             pair.user_data_a = user_data(pair.body_a);
             pair.user_data_b = user_data(pair.body_b);

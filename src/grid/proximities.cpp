@@ -1,13 +1,9 @@
 // The closest point of each face that a vertex may be near to, compared as queries compare them.
 #include "grid/proximities.hpp"
 
-#include "base/array.hpp"
 #include "base/bits.hpp"
-#include "base/boxes.hpp"
 #include "base/parallel.hpp"
-#include "base/room.hpp"
 #include "base/vectors.hpp"
-#include "exact/closest_point.hpp"
 #include "exact/facet_normal.hpp"
 #include "exact/predicates.hpp"
 #include "grid/constraints.hpp"
@@ -49,7 +45,7 @@ void Proximities::find(const StepScene& scene, KeptFeatures& kept) {
     carried_ = carry();
     find_near(scene, margin_, kept);
     end_step("proximities");
-    list_pairs(all(), pairs_);
+    list_pairs(all(), VOX_PAIR_NEAR, pairs_);
 }
 
 void Proximities::count(Counters& counters) const noexcept {

@@ -12,7 +12,6 @@
 #include <array>
 #include <cstdint>
 #include <memory_resource>
-#include <span>
 
 namespace vox {
 
@@ -34,8 +33,6 @@ struct ExactTile {
 
 class Proximities final : public LeastFaces<Proximity, SeenPoint, ExactTile> {
 public:
-    static constexpr vox_pair_state pair_state = VOX_PAIR_NEAR;
-
     explicit Proximities(std::pmr::memory_resource* memory) : LeastFaces(memory) {}
 
     void set_margin(double margin) noexcept { margin_ = margin; }

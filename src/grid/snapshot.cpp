@@ -1,6 +1,5 @@
 #include "grid/snapshot.hpp"
 
-#include "base/array.hpp"
 #include "mesh/ids.hpp"
 
 #include <algorithm>
@@ -24,9 +23,9 @@ void Snapshot::save_settings(const vox_grid& grid, SnapshotWriter& out) {
     out.u32(settings.paper_hash ? 1 : 0);
     out.u32(grid.flags());
     out.u64(settings.hash_table_size);
-    for (const Vec3d& corner : {settings.world_min, settings.world_max})
-        for (const double x : {corner.x, corner.y, corner.z}) out.f64(x);
-    out.f64(grid.used_cell_size_);
+    out.point(settings.world_min);
+    out.point(settings.world_max);
+    out.real(grid.used_cell_size_);
     out.u32(grid.chooses_cell_size());
     out.u32(0); // reserved; a grid that chooses its cell size does so again once it is loaded
     out.u64(grid.epoch_);
@@ -48,16 +47,15 @@ vox_grid_desc Snapshot::read_settings(SnapshotChunk& in, vox_grid_desc desc, vox
     if (engine == reference_engine && !desc.reference) desc.reference = &reference;
     desc.flags = in.u32();
     reference.hash_table_size = in.u64();
-    for (double& x : reference.world_min) x = in.f64();
-    for (double& x : reference.world_max) x = in.f64();
-    const double cell_size = in.f64();
+    for (double& x : reference.world_min) x = in.real<double>();
+    for (double& x : reference.world_max) x = in.real<double>();
+    const double cell_size = in.real<double>();
     if (!(cell_size >= 0) || std::isinf(cell_size))
         in.refuse(format("cell size is %g, expected a finite number >= 0", cell_size));
     const bool choose = in.flag("whether the cell size was chosen");
     if (!choose && cell_size == 0) in.refuse("cell size is 0, but not to be chosen");
     desc.cell_size = choose ? 0 : cell_size;
-    if (const std::uint32_t reserved = in.u32(); reserved != 0)
-        in.refuse(format("a reserved word is %" PRIu32 ", expected 0", reserved));
+    in.reserved_word();
     const std::uint64_t epoch = in.u64();
     in.end();
     if (grid) { // what a vox_grid_desc does not hold
@@ -189,8 +187,9 @@ vox_body Snapshot::mesh_that_was(SnapshotChunk& in, const vox_grid& grid) {
 
 void Snapshot::load_pairs(SnapshotChunk& in, Loading& to) {
     Array<vox_pair>& pairs = to.grid.pairs_.pairs_[to.grid.pairs_.current_];
-    const std::uint64_t count = in.u64(), reserved = in.u64();
-    if (reserved != 0) in.refuse(format("a reserved number is %" PRIu64 ", expected 0", reserved));
+    const std::uint64_t count = in.u64();
+    if (const std::uint64_t reserved = in.u64(); reserved != 0)
+        in.refuse(format("a reserved number is %" PRIu64 ", expected 0", reserved));
     in.expect(count, 24, "pairs");
     pairs.reserve(static_cast<std::size_t>(count));
     for (std::uint64_t i = 0; i < count; ++i) {
@@ -213,13 +212,7 @@ void Snapshot::load_pairs(SnapshotChunk& in, Loading& to) {
 
 std::uint64_t Snapshot::save(const vox_grid& grid, std::byte* bytes) noexcept {
     SnapshotWriter out(bytes);
-    save_settings(grid, out);
-    save_slots(grid, out);
-    save_meshes(grid, out);
-    save_cuts(grid, out);
-    save_filters(grid, out);
-    save_exceptions(grid, out);
-    save_pairs(grid, out);
+    for (const Part& part : parts) part.save(grid, out);
     return out.finish();
 }
 

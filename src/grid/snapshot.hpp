@@ -10,7 +10,6 @@
 #include <cinttypes>
 #include <cstddef>
 #include <cstdint>
-#include <memory_resource>
 
 namespace vox {
 
@@ -71,19 +70,23 @@ private:
         grid.meshes_.for_each([&](vox_body id, const MeshSlot& slot) { function(id, slot.mesh); });
     }
     static vox_body mesh_that_was(SnapshotChunk& in, const vox_grid& grid);
+    static Mesh& next_mesh(SnapshotChunk& in, vox_grid& grid, vox_body& last);
 
     // In the order in which they follow each other in a file.
     struct Part {
         const char* name;
         bool repeats;  // may come any number of times, else once
         bool required; // where it may come once
+        void (*save)(const vox_grid& grid, SnapshotWriter& out);
         void (*load)(SnapshotChunk& in, Loading& to);
     };
-    static constexpr Part parts[] = {
-        {"GRID", false, true, load_settings}, {"SLOT", false, true, load_slots},
-        {"MESH", true, false, load_mesh},     {"CUTS", true, false, load_cuts},
-        {"FILT", true, false, load_filter},   {"PAIR", false, true, load_exceptions},
-        {"EVNT", false, true, load_pairs}};
+    static constexpr Part parts[] = {{"GRID", false, true, save_settings, load_settings},
+                                     {"SLOT", false, true, save_slots, load_slots},
+                                     {"MESH", true, false, save_meshes, load_mesh},
+                                     {"CUTS", true, false, save_cuts, load_cuts},
+                                     {"FILT", true, false, save_filters, load_filter},
+                                     {"PAIR", false, true, save_exceptions, load_exceptions},
+                                     {"EVNT", false, true, save_pairs, load_pairs}};
 };
 
 } // namespace vox

@@ -175,6 +175,11 @@ bool SnapshotChunk::flag(const char* what) {
     return value == 1;
 }
 
+void SnapshotChunk::reserved_word() {
+    if (const std::uint32_t value = u32(); value != 0)
+        refuse(format("a reserved word is %" PRIu32 ", expected 0", value));
+}
+
 void SnapshotChunk::end() const {
     if (next_ != payload_.size()) refuse(format("%zu bytes, expected %zu", payload_.size(), next_));
 }

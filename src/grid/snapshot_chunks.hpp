@@ -4,8 +4,6 @@
 //   file, a lower-case one that it may skip it; the rule of PNG (ISO/IEC 15948:2004, 5.4)
 #pragma once
 
-#include "base/scene.hpp"
-
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -33,8 +31,12 @@ public:
         u32(static_cast<std::uint32_t>(value));
         u32(static_cast<std::uint32_t>(value >> 32));
     }
-    void f32(float value) noexcept { u32(std::bit_cast<std::uint32_t>(value)); }
-    void f64(double value) noexcept { u64(std::bit_cast<std::uint64_t>(value)); }
+    void real(float value) noexcept { u32(std::bit_cast<std::uint32_t>(value)); }
+    void real(double value) noexcept { u64(std::bit_cast<std::uint64_t>(value)); }
+    template <class Point>
+    void point(const Point& p) noexcept {
+        for (const auto x : {p.x, p.y, p.z}) real(x);
+    }
     void end_chunk() noexcept;
 
     // After the last chunk: fills in the header; returns the number of bytes.
@@ -62,10 +64,16 @@ public:
     std::size_t left() const noexcept { return payload_.size() - next_; }
     std::uint32_t u32();
     std::uint64_t u64();
-    float f32() { return std::bit_cast<float>(u32()); }
-    double f64() { return std::bit_cast<double>(u64()); }
+    template <class Real>
+    Real real() {
+        if constexpr (sizeof(Real) == 4)
+            return std::bit_cast<Real>(u32());
+        else
+            return std::bit_cast<Real>(u64());
+    }
     // A u32 that is 0 or 1; `what` names it.
     bool flag(const char* what);
+    void reserved_word(); // a u32 that is 0
     // Throws unless `count` elements of so many bytes are left: call it before memory is taken for them.
     void expect(std::uint64_t count, std::uint64_t element_bytes, const char* what) const;
     // Throws unless all has been read.

@@ -1,12 +1,10 @@
 // The parts of a snapshot that describe meshes.
-#include "base/array.hpp"
 #include "grid/snapshot.hpp"
 
 #include "base/vectors.hpp"
 #include "mesh/check.hpp"
 #include "mesh/ids.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
@@ -21,28 +19,30 @@ constexpr std::uint32_t self_collision_bit = 1, disabled_bit = 2, transform_bit 
 // Of a FILT chunk.
 constexpr std::uint32_t no_rest = 0, rest_in_floats = 1, rest_in_doubles = 2;
 
-void save_point(const Vec3f& p, SnapshotWriter& out) {
-    for (const float x : {p.x, p.y, p.z}) out.f32(x);
-}
+// The positions of a mesh, in floats or doubles.
+struct LoadedPositions {
+    explicit LoadedPositions(std::pmr::memory_resource* memory) : floats(memory), doubles(memory) {}
 
-void save_point(const Vec3d& p, SnapshotWriter& out) {
-    for (const double x : {p.x, p.y, p.z}) out.f64(x);
-}
+    Positions load(SnapshotChunk& in, std::uint64_t count, bool in_doubles) {
+        if (in_doubles) return {load(in, count, doubles), sizeof(Vec3d), true};
+        return {load(in, count, floats), sizeof(Vec3f)};
+    }
 
-void load_point(SnapshotChunk& in, Vec3f& p) {
-    for (float* x : {&p.x, &p.y, &p.z}) *x = in.f32();
-}
+private:
+    template <class Point>
+    static const std::byte* load(SnapshotChunk& in, std::uint64_t count, Array<Point>& points) {
+        in.expect(count, sizeof(Point), "positions");
+        points.reserve(static_cast<std::size_t>(count));
+        for (std::uint64_t i = 0; i < count; ++i) {
+            Point& p = points.emplace_back();
+            for (auto* x : {&p.x, &p.y, &p.z}) *x = in.real<std::remove_pointer_t<decltype(x)>>();
+        }
+        return reinterpret_cast<const std::byte*>(points.data());
+    }
 
-void load_point(SnapshotChunk& in, Vec3d& p) {
-    for (double* x : {&p.x, &p.y, &p.z}) *x = in.f64();
-}
-
-template <class Point>
-void load_points(SnapshotChunk& in, std::uint64_t count, Array<Point>& points) {
-    in.expect(count, sizeof(Point), "positions");
-    points.reserve(static_cast<std::size_t>(count));
-    for (std::uint64_t i = 0; i < count; ++i) load_point(in, points.emplace_back());
-}
+    Array<Vec3f> floats;
+    Array<Vec3d> doubles;
+};
 
 // Writes `count` bits as whole words, with zeros past the end of `bits`.
 void save_bits(std::span<const std::uint64_t> bits, std::uint64_t count, SnapshotWriter& out) {
@@ -81,14 +81,14 @@ void Snapshot::save_meshes(const vox_grid& grid, SnapshotWriter& out) {
         out.u32(has_positions);
         out.u32(positions.doubles ? VOX_FORMAT_DOUBLE : VOX_FORMAT_FLOAT);
         if (mesh.has_transform_)
-            for (const double element : mesh.transform_) out.f64(element);
+            for (const double element : mesh.transform_) out.real(element);
         for (std::uint32_t t = 0; t < body.tets.size(); ++t)
             for (const std::uint32_t vertex : mesh.given(t).v) out.u32(vertex);
         for (std::uint32_t v = 0; has_positions && v < body.vertex_count; ++v)
             if (positions.doubles)
-                save_point(positions.exact(v), out);
+                out.point(positions.exact(v));
             else
-                save_point(positions.floats(v), out);
+                out.point(positions.floats(v));
         out.end_chunk();
     });
 }
@@ -117,7 +117,7 @@ void Snapshot::load_mesh(SnapshotChunk& in, Loading& to) {
     std::array<double, 12> transform{};
     if (bits & transform_bit)
         for (double& element : transform) {
-            element = in.f64();
+            element = in.real<double>();
             if (!std::isfinite(element)) in.refuse(format("its transform has the element %g", element));
         }
 
@@ -128,17 +128,11 @@ void Snapshot::load_mesh(SnapshotChunk& in, Loading& to) {
         Tet& t = tets.emplace_back();
         for (std::uint32_t& vertex : t.v) vertex = in.u32();
     }
-    Array<Vec3f> floats(&grid.memory_);
-    Array<Vec3d> doubles(&grid.memory_);
+    LoadedPositions loaded(&grid.memory_);
     desc.positions.count = vertex_count;
     desc.positions.format = static_cast<vox_format>(position_format);
-    if (has_positions && desc.positions.format == VOX_FORMAT_DOUBLE) {
-        load_points(in, vertex_count, doubles);
-        desc.positions.data = doubles.data();
-    } else if (has_positions) {
-        load_points(in, vertex_count, floats);
-        desc.positions.data = floats.data();
-    }
+    if (has_positions)
+        desc.positions.data = loaded.load(in, vertex_count, position_format == VOX_FORMAT_DOUBLE).data;
     in.end();
 
     desc.flags = VOX_MESH_COPY_POSITIONS;
@@ -157,6 +151,15 @@ void Snapshot::load_mesh(SnapshotChunk& in, Loading& to) {
     });
 }
 
+// The mesh that a chunk is of; `last` is that of the one before.
+Mesh& Snapshot::next_mesh(SnapshotChunk& in, vox_grid& grid, vox_body& last) {
+    const vox_body id = in.u32();
+    if (!grid.is_valid(id)) in.refuse(format("body %" PRIu32 " is not in it", id));
+    if (id <= last) in.refuse(format("body %" PRIu32 " comes after body %" PRIu32, id, last));
+    last = id;
+    return grid.mesh(id);
+}
+
 // ---- CUTS: which tets are off or removed, and which vertices are removed -------------------------
 
 void Snapshot::save_cuts(const vox_grid& grid, SnapshotWriter& out) {
@@ -173,20 +176,14 @@ void Snapshot::save_cuts(const vox_grid& grid, SnapshotWriter& out) {
 }
 
 void Snapshot::load_cuts(SnapshotChunk& in, Loading& to) {
-    const vox_body id = in.u32();
-    if (!to.grid.is_valid(id)) in.refuse(format("body %" PRIu32 " is not in it", id));
-    if (id <= to.last_cut) in.refuse(format("body %" PRIu32 " comes after body %" PRIu32, id, to.last_cut));
-    to.last_cut = id;
-    if (const std::uint32_t reserved = in.u32(); reserved != 0)
-        in.refuse(format("a reserved word is %" PRIu32 ", expected 0", reserved));
-
-    Mesh& mesh = to.grid.mesh(id);
+    Mesh& mesh = next_mesh(in, to.grid, to.last_cut);
+    in.reserved_word();
     Array<std::uint64_t> off(&to.grid.memory_), removed(off.memory()), removed_vertices(off.memory());
     load_bits(in, mesh.tet_count(), "tetrahedra that are off", off);
     load_bits(in, mesh.tet_count(), "tetrahedra that are removed", removed);
     load_bits(in, mesh.vertex_count(), "vertices that are removed", removed_vertices);
     in.end();
-    or_refuse(in, id, [&] { mesh.restore_edits(off, removed, removed_vertices); });
+    or_refuse(in, to.last_cut, [&] { mesh.restore_edits(off, removed, removed_vertices); });
 }
 
 // ---- FILT: what a mesh does not collide with, where that is not the default ----------------------
@@ -208,49 +205,35 @@ void Snapshot::save_filters(const vox_grid& grid, SnapshotWriter& out) {
         out.u32(filter.self_rings);
         out.u32(0); // reserved
         out.u32(rest.empty() ? no_rest : rest.in_doubles() ? rest_in_doubles : rest_in_floats);
-        out.f64(filter.self_rest_distance);
+        out.real(filter.self_rest_distance);
         for (std::size_t v = 0; v < rest.size(); ++v)
             if (rest.in_doubles())
-                save_point(rest[v], out);
+                out.point(rest[v]);
             else
-                save_point(nearest_floats(rest[v]), out);
+                out.point(nearest_floats(rest[v]));
         out.end_chunk();
     });
 }
 
 void Snapshot::load_filter(SnapshotChunk& in, Loading& to) {
-    const vox_body id = in.u32();
-    if (!to.grid.is_valid(id)) in.refuse(format("body %" PRIu32 " is not in it", id));
-    if (id <= to.last_filtered)
-        in.refuse(format("body %" PRIu32 " comes after body %" PRIu32, id, to.last_filtered));
-    to.last_filtered = id;
-
-    Mesh& mesh = to.grid.mesh(id);
+    Mesh& mesh = next_mesh(in, to.grid, to.last_filtered);
     vox_filter filter = mesh.filter();
     filter.group = static_cast<std::int32_t>(in.u32());
     filter.category = in.u64();
     filter.mask = in.u64();
     filter.world = in.u32();
     filter.self_rings = in.u32();
-    if (const std::uint32_t reserved = in.u32(); reserved != 0)
-        in.refuse(format("a reserved word is %" PRIu32 ", expected 0", reserved));
+    in.reserved_word();
     const std::uint32_t rest = in.u32();
     if (rest > rest_in_doubles)
         in.refuse(
             format("its rest pose is of kind %" PRIu32 ", expected 0 to %" PRIu32, rest, rest_in_doubles));
-    filter.self_rest_distance = in.f64();
-    Array<Vec3f> floats(&to.grid.memory_);
-    Array<Vec3d> doubles(&to.grid.memory_);
+    filter.self_rest_distance = in.real<double>();
+    LoadedPositions loaded(&to.grid.memory_);
     Positions given;
-    if (rest == rest_in_doubles) {
-        load_points(in, mesh.vertex_count(), doubles);
-        given = {reinterpret_cast<const std::byte*>(doubles.data()), sizeof(Vec3d), true};
-    } else if (rest == rest_in_floats) {
-        load_points(in, mesh.vertex_count(), floats);
-        given = {reinterpret_cast<const std::byte*>(floats.data()), sizeof(Vec3f)};
-    }
+    if (rest != no_rest) given = loaded.load(in, mesh.vertex_count(), rest == rest_in_doubles);
     in.end();
-    or_refuse(in, id, [&] {
+    or_refuse(in, to.last_filtered, [&] {
         if (rest != no_rest) mesh.self_filter_.rest = mesh.rest_pose(given, mesh.vertex_count());
         mesh.set_filter(checked_filter(filter));
     });

@@ -2,12 +2,10 @@
 #include "grid/grid.hpp"
 
 #include "base/clock.hpp"
-#include "base/error.hpp"
 #include "base/llu.hpp"
 #include "base/room.hpp"
 #include "grid/contacts.hpp"
 #include "mesh/check.hpp"
-#include "mesh/ids.hpp"
 
 #include <algorithm>
 
@@ -30,7 +28,9 @@ void vox_grid::step() {
             if (carry && all_carried && same_surfaces)
                 pairs_.repeat();
             else
-                find_pairs();
+                pairs_.update(
+                    step_.contacts, [this](const auto& add) { surfaces_.for_pairs(add); },
+                    meshes_.slot_count(), [this](vox_body id) { return mesh(id).user_data(); });
         }
         if (finds_constraints()) make_constraints({}, true, counters, profile);
         count(counters);
@@ -89,12 +89,6 @@ bool vox_grid::search_surfaces(Counters& counters, Profile& profile) {
             streamed.fill(step_.prepared, filled);
     };
     return surfaces_.find(scene, fill, counters, profile);
-}
-
-void vox_grid::find_pairs() {
-    pairs_.update(
-        step_.contacts, [this](const auto& add) { surfaces_.for_pairs(add); }, meshes_.slot_count(),
-        [this](vox_body id) { return mesh(id).user_data(); });
 }
 
 void vox_grid::make_constraints(const vox_constraint_desc& desc, bool in_step, Counters& counters,

@@ -1,7 +1,6 @@
 // Tiles are made by splits at medians. An edge belongs to the first of its faces in their order.
 #include "grid/surface_features.hpp"
 
-#include "base/array.hpp"
 #include "base/median_splits.hpp"
 #include "base/vectors.hpp"
 #include "mesh/facets.hpp"

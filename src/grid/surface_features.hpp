@@ -3,7 +3,6 @@
 #pragma once
 
 #include "base/array.hpp"
-#include "base/scene.hpp"
 #include "fast/step_scene.hpp"
 
 #include <vox/vox.h>

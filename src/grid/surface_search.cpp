@@ -7,17 +7,9 @@ void SearchedBodies::begin(const StepScene& scene) {
     bodies_.reserve(scene.bodies.size());
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
         const fast::StepBody& of = scene.of[b];
-        bodies_.push_back(
-            {of.positions,
-             nullptr,
-             {scene.boxes->blocks.data() + of.first_block, scene.boxes->groups.data() + of.first_group},
-             of.tiles->block_first,
-             scene.boxes->bodies[b],
-             0,
-             nullptr,
-             SearchedBody::not_reached,
-             empty_box,
-             empty_box});
+        const BlockBoxes blocks{scene.boxes->blocks.data() + of.first_block,
+                                scene.boxes->groups.data() + of.first_group};
+        bodies_.push_back({of.positions, blocks, of.tiles->block_first, scene.boxes->bodies[b]});
     }
     reached_.clear();
 }

@@ -34,18 +34,19 @@ struct BlockBoxes {
 
 // A body as a search sees it. A vertex may be anywhere on its way from `before` to `at`.
 struct SearchedBody {
-    const float *at, *before; // packed, rounded to floats; `before` is null for one that stands still
+    const float* at; // packed, rounded to floats
     BlockBoxes blocks;
     std::span<const std::uint32_t> first_of_block; // vertices, and the end
     Box box;                                       // around all vertices
-    float grow;                                    // of two bodies, the sum is how far apart boxes can be
+    const float* before = nullptr;                 // as `at`; null for one that stands still
+    float grow = 0;                                // of two bodies, the sum is how far apart boxes can be
 
     // Set for bodies of which tiles are reached.
     static constexpr std::uint32_t not_reached = ~0u;
-    const SurfaceFeatures* features;
-    std::uint32_t first_tile; // not_reached
-    Box reached;              // around where others reach the body
-    Box tiles_box;            // around the tiles there
+    const SurfaceFeatures* features = nullptr;
+    std::uint32_t first_tile = not_reached;
+    Box reached = empty_box;   // around where others reach the body
+    Box tiles_box = empty_box; // around the tiles there
 
     std::uint32_t block_count() const noexcept {
         return static_cast<std::uint32_t>(first_of_block.size() - 1);

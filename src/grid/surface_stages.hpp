@@ -1,11 +1,10 @@
 // The stages of a step that look at surfaces, as a list: a new kind of contact is a class like these, and a
 // line in it. Each has
 //   time                      the field of Profile that its time is added to
-//   pair_state                of pairs that have such contacts and no others before it in the list
 //   find(scene, kept)         replaces the contacts; those between bodies at rest may be carried over
 //   count(counters)           of the last step
 //   is_unchanged()            whether that found what the step before had, all of it carried over
-//   pairs()                   of bodies that have such contacts, in order
+//   pairs()                   of bodies that have such contacts, in order; how they touch
 //   add_to(sources, trees, workers)
 //                             what constraints are made of, with depths where these are asked for
 //   clear()                   forgets the contacts, as when find() has thrown
@@ -35,7 +34,6 @@ public:
 
     // Whether a step looks at surfaces.
     bool any() const noexcept { return kept_.has_value(); }
-    bool finds_edges() const noexcept { return std::get<0>(stages_).has_value(); }
     double margin() const noexcept {
         const auto& proximities = std::get<std::optional<Proximities>>(stages_);
         return proximities ? proximities->margin() : 0;
@@ -76,10 +74,10 @@ public:
         });
         return is_unchanged;
     }
-    // Calls visit(pairs, state) for each kind of contact.
+    // Calls visit(pairs) for each kind of contact.
     template <class Visit>
     void for_pairs(const Visit& visit) {
-        for_each([&](auto& stage) { visit(stage.pairs(), stage.pair_state); });
+        for_each([&](auto& stage) { visit(stage.pairs()); });
     }
     void add_to(ConstraintSources& sources, depth::SurfaceTrees& trees, Workers& workers) {
         for_each([&](auto& stage) { stage.add_to(sources, trees, workers); });

@@ -2,7 +2,6 @@
 // of a tile with the vertices of the runs.
 #include "grid/vertex_face_search.hpp"
 
-#include "base/array.hpp"
 #include "base/error.hpp"
 #include "base/room.hpp"
 #include "fast/broad_phase.hpp"

@@ -10,8 +10,6 @@
 #include "grid/surface_features.hpp"
 #include "grid/surface_search.hpp"
 
-#include <vox/vox.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
