@@ -2,9 +2,6 @@
 // contacts, and the records.
 #pragma once
 
-#include "base/array.hpp"
-#include "base/counters.hpp"
-#include "base/scene.hpp"
 #include "depth/stage.hpp"
 #include "depth/surface_trees.hpp"
 #include "fast/engine.hpp"
@@ -13,11 +10,6 @@
 #include "grid/surface_stages.hpp"
 
 #include <vox/vox.h>
-
-#include <cstdint>
-#include <memory_resource>
-#include <optional>
-#include <span>
 
 namespace vox {
 

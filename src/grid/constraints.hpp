@@ -1,10 +1,7 @@
 // Constraints: what the contacts of a step, of every kind, amount to for a solver (vox_constraint).
 #pragma once
 
-#include "base/array.hpp"
-#include "base/scene.hpp"
 #include "depth/penetrations.hpp"
-#include "grid/contact_pairs.hpp"
 #include "grid/edge_contacts.hpp"
 #include "grid/impacts.hpp"
 #include "grid/proximities.hpp"

@@ -2,17 +2,12 @@
 // Found in every step of a grid with VOX_GRID_EDGES, for both engines alike.
 #pragma once
 
-#include "base/array.hpp"
 #include "base/counters.hpp"
-#include "base/per_worker.hpp"
-#include "base/scene.hpp"
 #include "depth/penetrations.hpp"
 #include "depth/surface_trees.hpp"
 #include "exact/crossing.hpp"
 #include "exact/predicates.hpp"
-#include "fast/step_scene.hpp"
-#include "grid/contact_pairs.hpp"
-#include "grid/surface_features.hpp"
+#include "grid/pairs.hpp"
 #include "grid/surface_search.hpp"
 
 #include <vox/vox.h>

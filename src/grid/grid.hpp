@@ -1,12 +1,9 @@
 // A grid: meshes, settings, and step(), which runs the stages in order.
 #pragma once
 
-#include "base/array.hpp"
-#include "base/counters.hpp"
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/parallel.hpp"
-#include "base/scene.hpp"
 #include "cell_size/adaptive.hpp"
 #include "cell_size/scene.hpp"
 #include "fast/engine.hpp"

@@ -108,7 +108,7 @@ void Impacts::look(Worker& worker, const NearFaces& near) const {
             motion.from[i] = worker.read.from[corners[i]] - from;
             motion.to[i] = worker.read.to[corners[i]] - to;
         }
-        (void)offer(worker, near.place, face, meeting_time(motion, worker.of_vertex[near.place].most));
+        offer(worker, near.place, face, meeting_time(motion, worker.of_vertex[near.place].most));
     }
 }
 

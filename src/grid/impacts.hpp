@@ -2,11 +2,7 @@
 // through it. For both engines alike.
 #pragma once
 
-#include "base/array.hpp"
-#include "base/counters.hpp"
-#include "base/scene.hpp"
 #include "exact/meeting_time.hpp"
-#include "grid/contact_pairs.hpp"
 #include "grid/least_faces.hpp"
 
 #include <vox/vox.h>
@@ -32,12 +28,11 @@ struct Impact : SurfaceMeeting {
     double gap;        // to its plane; not positive
 };
 
-struct NoNote {};
 struct MovingTile {
     std::array<Vec3d, SurfaceTile::most_vertices> from, to;
 };
 
-class Impacts final : public LeastFaces<SurfaceMeeting, NoNote, MovingTile> {
+class Impacts final : public LeastFaces<SurfaceMeeting, MovingTile> {
 public:
     explicit Impacts(std::pmr::memory_resource* memory)
         : LeastFaces(memory), bound_(memory), previous_(memory), impacts_(memory) {}

@@ -2,12 +2,8 @@
 // number, a distance or a time.
 #pragma once
 
-#include "base/array.hpp"
 #include "base/counters.hpp"
-#include "base/per_worker.hpp"
-#include "base/room.hpp"
-#include "fast/step_scene.hpp"
-#include "grid/contact_pairs.hpp"
+#include "grid/pairs.hpp"
 #include "grid/vertex_face_search.hpp"
 
 #include <vox/vox.h>
@@ -41,9 +37,8 @@ auto place_of(const Element& element) noexcept {
     return std::tuple(element.body_a, element.vertex, element.body_b);
 }
 
-// `Element` is a VertexFace and more; `Note` is what is kept of a face while it is the least, `Tile` what is
-// read of a tile for all vertices near it.
-template <class Element, class Note, class Tile>
+// `Element` is a VertexFace and more, `Tile` what is read of a tile for all vertices near it.
+template <class Element, class Tile>
 class LeastFaces : protected VertexFaceSearch {
 public:
     static constexpr auto time = &Profile::margin_ns;
@@ -64,7 +59,6 @@ protected:
         std::uint32_t face;  // of the surface
         std::array<std::uint32_t, 3> corners;
         double number;
-        Note note;
     };
     struct Found {
         Element element;
@@ -138,16 +132,15 @@ protected:
         return scene_.bodies[body].positions.exact(vertex);
     }
 
-    // Makes the face of this number in the tile the least of a vertex. Returns where the note of it belongs;
-    // null if there is a lower one.
-    Note* offer(Worker& worker, std::uint32_t vertex_place, std::uint32_t face_in_tile, double number) const {
+    // Makes the face of this number in the tile the least of a vertex, unless it has a lower one.
+    void offer(Worker& worker, std::uint32_t vertex_place, std::uint32_t face_in_tile, double number) const {
         const SurfaceFeatures& surface = *worker.pair.surface;
         const std::uint32_t face = worker.tile->first_face + face_in_tile;
         const auto key_of = [&](std::uint32_t f) { return std::tuple(surface.tets[f], surface.facets[f]); };
         auto& [most, index] = worker.of_vertex[vertex_place];
         if (number > most ||
             (number == most && index != none_yet && !(key_of(face) < key_of(worker.least[index].face))))
-            return nullptr;
+            return;
         if (index == none_yet) {
             index = static_cast<std::uint32_t>(worker.least.size());
             reserve_growing(worker.least, worker.least.size() + 1);
@@ -160,7 +153,6 @@ protected:
         for (std::size_t i = 0; i < 3; ++i)
             least.corners[i] = surface.vertices[worker.tile->first_vertex + surface.faces[face][i]];
         least.number = number;
-        return &least.note;
     }
 
     // The vertex and the face, for element_of().

@@ -110,8 +110,7 @@ void Proximities::look(Worker& worker, const NearFaces& near) const {
         candidates[next] = candidates[--count];
         const auto& [u, v, w] = worker.pair.surface->faces[worker.tile->first_face + face];
         const SeenPoint seen = closest_seen_from(p, points[u], points[v], points[w]);
-        SeenPoint* const note = offer(worker, near.place, face, std::max(seen.at.squared_distance, least));
-        if (note) *note = seen;
+        offer(worker, near.place, face, std::max(seen.at.squared_distance, least));
     }
 }
 
@@ -120,8 +119,10 @@ Proximity Proximities::element_of(const Worker& worker, const Least& least) cons
     const std::uint32_t b = worker.pair.b;
     const Vec3d corner[3] = {position(b, at.face[0]), position(b, at.face[1]), position(b, at.face[2])};
     const Vec3d apex = position(b, scene().bodies[b].tets[at.tet].v[at.facet]);
-    const Vec3d normal = normal_to(position(worker.pair.a, at.vertex), corner, least.note, apex);
-    const std::array<double, 3> weights = normalised(least.note.at.weight);
+    const Vec3d p = position(worker.pair.a, at.vertex);
+    const SeenPoint seen = closest_seen_from(p, corner[0], corner[1], corner[2]);
+    const Vec3d normal = normal_to(p, corner, seen, apex);
+    const std::array<double, 3> weights = normalised(seen.at.weight);
     return {
         at, {weights[0], weights[1], weights[2]}, std::sqrt(least.number), {normal.x, normal.y, normal.z}};
 }

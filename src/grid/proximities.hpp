@@ -2,11 +2,7 @@
 // in every step of a grid with a margin, for both engines alike.
 #pragma once
 
-#include "base/array.hpp"
-#include "base/counters.hpp"
-#include "base/scene.hpp"
 #include "exact/closest_point.hpp"
-#include "grid/contact_pairs.hpp"
 #include "grid/least_faces.hpp"
 
 #include <array>
@@ -31,7 +27,7 @@ struct ExactTile {
     std::array<Box3d, SurfaceTile::most_faces> boxes;
 };
 
-class Proximities final : public LeastFaces<Proximity, SeenPoint, ExactTile> {
+class Proximities final : public LeastFaces<Proximity, ExactTile> {
 public:
     explicit Proximities(std::pmr::memory_resource* memory) : LeastFaces(memory) {}
 

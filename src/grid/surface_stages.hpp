@@ -13,16 +13,12 @@
 #pragma once
 
 #include "base/clock.hpp"
-#include "base/counters.hpp"
-#include "fast/step_scene.hpp"
 #include "grid/edge_contacts.hpp"
 #include "grid/impacts.hpp"
 #include "grid/proximities.hpp"
-#include "grid/surface_features.hpp"
 
 #include <vox/vox.h>
 
-#include <memory_resource>
 #include <optional>
 #include <tuple>
 

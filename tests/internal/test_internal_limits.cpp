@@ -1,8 +1,8 @@
 // Limits that would take more memory than a machine has: what checks them, given the counts alone.
 #include "base/array.hpp"
 #include "base/error.hpp"
-#include "grid/contact_pairs.hpp"
 #include "grid/mesh_table.hpp"
+#include "grid/pairs.hpp"
 #include "mesh/topology.hpp"
 
 #include "support/suite.h"
