@@ -35,7 +35,7 @@ public:
         return proximities ? proximities->margin() : 0;
     }
 
-    // What they look for. After any of these, drop_unused() is to be called.
+    // What they look for; drop_unused() gives up what is without use then.
     void find_edges(bool find) { (void)use<EdgeContacts>(find); }
     void set_margin(double margin) {
         if (Proximities* const proximities = use<Proximities>(margin > 0)) proximities->set_margin(margin);
@@ -44,7 +44,7 @@ public:
         if (positions.data || std::get<std::optional<Impacts>>(stages_))
             use<Impacts>(true)->bind(mesh, positions);
     }
-    // Gives up what no step needs any more. Returns whether that leaves none, where there was one.
+    // Returns whether that leaves no stage, where there was one.
     bool drop_unused() noexcept {
         auto& impacts = std::get<std::optional<Impacts>>(stages_);
         if (impacts && !impacts->any_bound()) impacts.reset();
