@@ -63,18 +63,21 @@ def round_ticks(low, high, count=5):
 
 
 class Chart:
+    FONT = 11  # size of words that name none
+
     def __init__(self, width, height, title):
         self.width, self.height, self.title, self.lines = width, height, title, []
 
     def add(self, line):
         self.lines.append(line)
 
-    def text(self, x, y, words, anchor="start", size=11, turned=False):
+    def text(self, x, y, words, anchor="start", size=0, turned=False):
         """One _subscript is possible; what follows is set apart by a space that is not dropped."""
+        size = size or self.FONT
         words = re.sub(r"_(\w+) ?(.*)", rf'<tspan dy="3" font-size="{size - 3}">\1</tspan><tspan dy="-3">&#160;\2</tspan>', escape(words))
         place = f'transform="translate({number(x)} {number(y)})rotate(-90)"' if turned else f'x="{number(x)}" y="{number(y)}"'
         self.add(f'<text {place}' + (f' text-anchor="{anchor}"' if anchor != "start" else "")
-                 + (f' font-size="{size}"' if size != 11 else "") + f'>{words}</text>')
+                 + (f' font-size="{size}"' if size != self.FONT else "") + f'>{words}</text>')
 
     def marks(self, points, colour, shape="dot", size=3.0, hollow=False):
         """Marks at points in pixels. size: half of it."""
@@ -113,17 +116,22 @@ class Chart:
     def area_key(self, colour):
         return lambda x, y: self.area(x - 11, y - 5, 22, 10, colour)
 
-    def write(self, path):
+    def style(self):
         light, dark = ("".join(f".{row[0]}{{color:{row[scheme]}}}" for row in COLOURS) for scheme in (1, 2))
-        style = ("text{fill:currentColor}.l,.d{fill:none;stroke:currentColor}.d{stroke-linecap:round}"
-                 f".f{{fill:currentColor}}.h{{fill:{COLOURS[0][1]};stroke:currentColor}}{light}"
-                 f"@media (prefers-color-scheme:dark){{.h{{fill:{COLOURS[0][2]}}}{dark}}}")
+        return ("text{fill:currentColor}.l,.d{fill:none;stroke:currentColor}.d{stroke-linecap:round}"
+                f".f{{fill:currentColor}}.h{{fill:{COLOURS[0][1]};stroke:currentColor}}{light}"
+                f"@media (prefers-color-scheme:dark){{.h{{fill:{COLOURS[0][2]}}}{dark}}}")
+
+    def svg(self):
+        return "\n".join([f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {self.width} {self.height}" width="{self.width}" '
+                          f'height="{self.height}" class="ink" stroke-width="1.5" '
+                          f'font-family="Helvetica, Arial, sans-serif" font-size="{self.FONT}">',
+                          f"<title>{escape(self.title)}</title>", f"<style>{self.style()}</style>",
+                          f'<rect class="f paper" width="{self.width}" height="{self.height}"/>', *self.lines, "</svg>\n"])
+
+    def write(self, path):
         with open(path, "w", encoding="utf-8", newline="\n") as file:
-            print(f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {self.width} {self.height}" width="{self.width}" '
-                  f'height="{self.height}" class="ink" stroke-width="1.5" '
-                  'font-family="Helvetica, Arial, sans-serif" font-size="11">',
-                  f"<title>{escape(self.title)}</title>", f"<style>{style}</style>",
-                  f'<rect class="f paper" width="{self.width}" height="{self.height}"/>', *self.lines, "</svg>", sep="\n", file=file)
+            file.write(self.svg())
 
 
 class Panel:
