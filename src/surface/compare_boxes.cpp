@@ -152,10 +152,23 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace vox {
 
-QuantiseTile* quantise_tile() noexcept { return VOX_SIMD_DISPATCH(QuantiseOwn); }
-QuantiseSides* quantise_sides() noexcept { return VOX_SIMD_DISPATCH(Quantise); }
-CompareFloats* compare_floats() noexcept { return VOX_SIMD_DISPATCH(CompareBox); }
-CompareTiles* compare_tiles() noexcept { return VOX_SIMD_DISPATCH(CompareQuantised); }
+void quantise_tile(const float* boxes, const float* low, const float* high, float close_by,
+                   QuantisedTile& out) {
+    VOX_SIMD_DISPATCH(QuantiseOwn)(boxes, low, high, close_by, out);
+}
+
+void quantise_sides(const float* boxes, const QuantisedTile& tile, QuantisedSides& out) {
+    VOX_SIMD_DISPATCH(Quantise)(boxes, tile, out);
+}
+
+std::size_t compare_tiles(const QuantisedTile& tile, std::uint64_t asked, const QuantisedSides& other,
+                          std::uint64_t wanted, TileOverlaps& out) {
+    return VOX_SIMD_DISPATCH(CompareQuantised)(tile, asked, other, wanted, out);
+}
+
+FloatOverlaps compare_floats(const float* boxes, const float* box, float close_by) {
+    return VOX_SIMD_DISPATCH(CompareBox)(boxes, box, close_by);
+}
 
 } // namespace vox
 #endif

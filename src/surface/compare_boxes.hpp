@@ -37,26 +37,20 @@ struct TileOverlaps {
 };
 
 // `boxes` is 6 * 64 floats, as in FeatureTiles::boxes, `low` and `high` are the tile's box.
-using QuantiseTile = void(const float* boxes, const float* low, const float* high, float close_by,
-                          QuantisedTile& out);
+void quantise_tile(const float* boxes, const float* low, const float* high, float close_by,
+                   QuantisedTile& out);
 // The boxes of another tile in the quanta of `tile`.
-using QuantiseSides = void(const float* boxes, const QuantisedTile& tile, QuantisedSides& out);
+void quantise_sides(const float* boxes, const QuantisedTile& tile, QuantisedSides& out);
 // Compares the lanes `asked` of a tile with the lanes `wanted` of another one. Returns how many of these
 // overlap any.
-using CompareTiles = std::size_t(const QuantisedTile& tile, std::uint64_t asked, const QuantisedSides& other,
-                                 std::uint64_t wanted, TileOverlaps& out);
+std::size_t compare_tiles(const QuantisedTile& tile, std::uint64_t asked, const QuantisedSides& other,
+                          std::uint64_t wanted, TileOverlaps& out);
 
 // Compares a tile's boxes of floats with one box, whose numbers lie 64 floats apart. Bit k of `lanes`: lane k
 // overlaps it; bit k of `close`: but reaches into it by no more than `close_by` along some axis.
 struct FloatOverlaps {
     std::uint64_t lanes, close;
 };
-using CompareFloats = FloatOverlaps(const float* boxes, const float* box, float close_by);
-
-// For the instructions of this machine.
-QuantiseTile* quantise_tile() noexcept;
-QuantiseSides* quantise_sides() noexcept;
-CompareTiles* compare_tiles() noexcept;
-CompareFloats* compare_floats() noexcept;
+FloatOverlaps compare_floats(const float* boxes, const float* box, float close_by);
 
 } // namespace vox

@@ -295,7 +295,7 @@ void put_corners(const CullFrame& frame, std::span<const Vec3d> positions,
 
 } // namespace
 
-CullSome* cull_some() noexcept { return VOX_SIMD_DISPATCH(Cull); }
+std::size_t cull_some(const CullPairs& pairs) { return VOX_SIMD_DISPATCH(Cull)(pairs); }
 
 CullFrame frame_around(const SurfaceMotion& motion, std::span<const std::uint32_t> vertices) noexcept {
     Vec3d lo = motion.from[vertices[0]], hi = lo;

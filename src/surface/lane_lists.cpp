@@ -83,8 +83,14 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace vox {
 
-TurnBlocks* turn_blocks() noexcept { return VOX_SIMD_DISPATCH(Turn); }
-WriteLists* write_lists() noexcept { return VOX_SIMD_DISPATCH(Write); }
+void turn_blocks(std::uint64_t* words, std::size_t blocks, std::uint32_t* counts) {
+    VOX_SIMD_DISPATCH(Turn)(words, blocks, counts);
+}
+
+void write_lists(const std::uint64_t* words, std::size_t blocks, const std::uint32_t* partners,
+                 std::uint32_t* const* lists, const std::uint32_t* counts) {
+    VOX_SIMD_DISPATCH(Write)(words, blocks, partners, lists, counts);
+}
 
 } // namespace vox
 #endif

@@ -113,6 +113,7 @@ private:
     static void cull_found(const Task& task, const TileSearch& tile, Worker& worker);
     void search_tile(const Task& task, std::uint32_t t, Worker& worker);
     void keep_found(const Task& task, std::uint32_t tile, Worker& worker);
+    void write_found(const Task& task, std::size_t tile, FeaturePairs& out);
     double choose_cell_size(vox_feature a, vox_feature b);
 
     std::array<FeatureTiles, feature_kinds> tiles_;
