@@ -101,13 +101,10 @@ struct TileWork {
     FilterConstants constants;
 
     void narrow(const TetNames& tets, std::uint32_t count) {
-        const bool few = tile.vertex_count <= few_vertices;
         if (body.rounded)
-            few ? Narrow<true, FewCorners>(tets, s, count, constants, out)
-                : Narrow<true, ManyCorners>(tets, s, count, constants, out);
+            Narrow<true>(tets, s, count, constants, out);
         else
-            few ? Narrow<false, FewCorners>(tets, s, count, constants, out)
-                : Narrow<false, ManyCorners>(tets, s, count, constants, out);
+            Narrow<false>(tets, s, count, constants, out);
     }
 };
 
@@ -120,7 +117,7 @@ HWY_NOINLINE void Process(TileWork& w, std::uint32_t count, std::uint32_t own_co
         for (int a = 0; a < 3; ++a) w.scales[a] = MakeScale(w.box.lo[a], w.box.hi[a]);
         const std::size_t index = static_cast<std::size_t>(&tile - w.body.tiles->tiles.data());
         QuantiseTile(w.body.tiles->corners.data() + index * 4 * tile_size, w.scales, tile.vertex_count, s);
-        ManyCorners::Prepare(s, tile.vertex_count);
+        Corners::Prepare(s, tile.vertex_count);
         w.constants = MakeConstants(w.box, w.body.rounded);
         w.ready = true;
     }
