@@ -7,7 +7,6 @@
 
 namespace vox {
 
-inline Vec3d vec(const Vec3f& p) noexcept { return {double{p.x}, double{p.y}, double{p.z}}; }
 inline Vec3f nearest_floats(const Vec3d& p) noexcept {
     return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
 }

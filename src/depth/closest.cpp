@@ -3,12 +3,9 @@
 #include "depth/closest.hpp"
 
 #include "base/vectors.hpp"
-#include "depth/points.hpp"
 #include "exact/closest_point.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace vox::depth {
 

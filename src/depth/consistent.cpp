@@ -335,7 +335,7 @@ void Stages::finish_border_point() {
                              ? VOX_DEPTH_SURFACE
                              : border_.nearest.write(*border_.depth);
     const bool is_crossing = *border_.state == VOX_DEPTH_AMBIGUOUS;
-    lost_ += is_crossing && !has_answer(*border_.depth);
+    lost_ += is_crossing && !border_.depth->has_answer();
     push(border_.vertex, is_crossing ? unusable : 1);
 }
 
@@ -370,7 +370,7 @@ void Stages::propagate_crossing(std::uint32_t wave) {
     for (const std::uint32_t place : pair_.places) {
         const std::uint32_t vertex = vertex_at(place);
         if (wave_of(vertex) == unusable)
-            waves_.set_wave(vertex, has_answer(penetrations_.depth_of(place)) ? wave : unreached);
+            waves_.set_wave(vertex, penetrations_.depth_of(place).has_answer() ? wave : unreached);
         if (wave_of(vertex) != unreached) queue_[queued_++] = vertex;
     }
     propagate(wave + 1, true);

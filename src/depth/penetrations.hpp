@@ -21,6 +21,8 @@ struct alignas(32) Depth {
     double direction[3];
 
     Vec3d way_out() const noexcept { return {direction[0], direction[1], direction[2]}; }
+    // Whether depth and direction of an ENCLOSED or CROSSING vertex are known.
+    bool has_answer() const noexcept { return depth > 0; }
     void set(double new_depth, const Vec3d& new_direction) noexcept {
         depth = new_depth;
         direction[0] = new_direction.x;

@@ -9,7 +9,6 @@
 #include "depth/consistent.hpp"
 #include "depth/fallback.hpp"
 #include "depth/penetrations.hpp"
-#include "depth/points.hpp"
 #include "mesh/topology.hpp"
 
 #include <vox/vox.h>
@@ -54,17 +53,8 @@ private:
 
         auto buffers() { return consistent.buffers(); }
     };
-    struct Scene {
-        std::span<const Body> bodies;
-        std::span<const Topology* const> topologies;
-        std::span<const Hit> hits;
-        Penetrations& penetrations;
-
-        depth::Solid solid(std::uint32_t body) const;
-    };
-
-    void list_places(const Scene& scene);
-    void find_consistent(const Scene& scene, std::size_t pair, Worker& worker);
+    void list_places(const depth::Scene& scene);
+    void find_consistent(const depth::Scene& scene, std::size_t pair, Worker& worker);
 
     // Of the penetrations that are found, pair after pair, each in the order of vertices; and in these lists
     // the first of each pair.

@@ -18,6 +18,10 @@ struct Solid {
     Vec3d at(std::uint32_t vertex) const noexcept { return positions.exact(vertex); }
 };
 
+inline bool has_corner(const Triangle& triangle, std::uint32_t vertex) noexcept {
+    return triangle.v[0] == vertex || triangle.v[1] == vertex || triangle.v[2] == vertex;
+}
+
 // A point of a triangle of a surface.
 struct SurfacePoint {
     std::uint32_t triangle;

@@ -7,7 +7,7 @@
 #include "base/boxes.hpp"
 #include "fast/body_pairs.hpp"
 #include "fast/step.hpp"
-#include "mesh/tile_sides.hpp"
+#include "mesh/tiles.hpp"
 
 #include <cstddef>
 #include <cstdint>

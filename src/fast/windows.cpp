@@ -1,6 +1,5 @@
 #include "fast/windows.hpp"
 
-#include "base/array.hpp"
 #include "base/clock.hpp"
 
 #include <algorithm>
@@ -87,22 +86,19 @@ bool cull_by_winding(const Step& step, std::uint32_t b, Workers* helpers, StepBo
     const std::uint64_t start = nanoseconds();
     TileSize size;
     sample_tiles(body, boxes, size);
-    const WindingBody winding{*body.tiles,
-                              *body.boundary,
-                              body.positions,
-                              step.bodies[b].vertex_count,
-                              boxes.bodies[b],
-                              winding_cell_in_tile_sides * size.mean(),
-                              boxes.super_tiles.data() + body.first_super,
-                              boxes.super_change.data() + body.first_super,
-                              boxes.super_positive.data() + body.first_super,
-                              boxes.tiles.data() + body.first_tile,
-                              boxes.tile_known.data() + body.first_tile,
-                              *body.orientation,
-                              helpers,
-                              body.rounded,
-                              step.origin,
-                              step.bodies[b].positions};
+    const Box& box = boxes.bodies[b];
+    const WindingBody winding{
+        {*body.tiles, *body.boundary, body.positions, step.bodies[b].vertex_count, body.rounded,
+         body.rounded ? slack_of_rounding(box) : 0, boxes.super_change.data() + body.first_super,
+         boxes.super_positive.data() + body.first_super, boxes.tiles.data() + body.first_tile,
+         boxes.tile_known.data() + body.first_tile},
+        box,
+        winding_cell_in_tile_sides * size.mean(),
+        boxes.super_tiles.data() + body.first_super,
+        *body.orientation,
+        helpers,
+        step.origin,
+        step.bodies[b].positions};
     const bool culled = certify(winding, certificate, worker.exact_tests);
     worker.winding_ns += nanoseconds() - start;
     return culled;

@@ -2,7 +2,6 @@
 
 #include "base/structs.hpp"
 #include "mesh/filter.hpp"
-#include "mesh/highest_index.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -47,7 +46,6 @@ Body check_mesh(const vox_mesh_desc& desc, const char* where, NullPositions null
     body.positions = positions;
     body.tets = {reinterpret_cast<const Tet*>(desc.tets), static_cast<std::size_t>(desc.tet_count)};
     body.self_collision = collides_with_itself(desc.filter);
-    if (body.tets.empty() || highest_index(desc.tets, 4 * body.tets.size()) < body.vertex_count) return body;
     for (std::size_t tet = 0; tet < body.tets.size(); ++tet)
         for (const std::uint32_t vertex : body.tets[tet].v)
             if (vertex >= body.vertex_count)
@@ -98,10 +96,6 @@ MeshError position_error(const Body& body, std::uint32_t vertex) {
                                 ? "too large: coordinates are below 2^128 - 2^103 = 3.4028236e+38"
                                 : "not finite"),
                      vertex);
-}
-
-void check_finite(const Body& body, std::uint32_t vertex) {
-    if (!is_finite(body, vertex)) throw position_error(body, vertex);
 }
 
 namespace {

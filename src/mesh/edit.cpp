@@ -1,13 +1,11 @@
 // Edits of a mesh: first everything that can fail, then the change itself, then the repair of what was
 // prepared of the mesh, which takes time in proportion to the edit.
-#include "base/array.hpp"
 #include "mesh/mesh.hpp"
 
 #include "base/error.hpp"
 #include "base/room.hpp"
 #include "mesh/check.hpp"
 #include "mesh/tet_changes.hpp"
-#include "mesh/tile_repair.hpp"
 
 #include <algorithm>
 #include <cinttypes>

@@ -6,7 +6,6 @@
 #include "base/boxes.hpp"
 #include "base/parallel.hpp"
 #include "base/scene.hpp"
-#include "mesh/tile_sides.hpp"
 #include "mesh/tiles.hpp"
 #include "query/box_tree.hpp"
 #include "query/tets.hpp"

@@ -3,16 +3,10 @@
 // of the tile. When all tiles have counted theirs, they know where their lists go.
 #include "surface/pairs.hpp"
 
-#include "base/array.hpp"
-#include "base/bits.hpp"
 #include "base/room.hpp"
 #include "base/vectors.hpp"
-#include "surface/compare_boxes.hpp"
-#include "surface/lane_lists.hpp"
 #include "surface/suggest.hpp"
 
-#include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numeric>
 

@@ -2,9 +2,8 @@
 // against boxes of floats, lists of partners against loops, numbers sorted by counting.
 #include "base/simd.hpp"
 #include "internal/random.hpp"
-#include "surface/compare_boxes.hpp"
-#include "surface/lane_lists.hpp"
-#include "surface/listed_features.hpp"
+#include "surface/lanes.hpp"
+#include "surface/pairs.hpp"
 
 #include <algorithm>
 #include <array>
