@@ -1,6 +1,5 @@
 #include "depth/stage.hpp"
 
-#include "base/array.hpp"
 #include "base/parallel.hpp"
 #include "base/room.hpp"
 

@@ -8,7 +8,6 @@
 // pairs that filters exclude, as in a pile of bodies of one negative group.
 #include "fast/body_pairs.hpp"
 
-#include "base/array.hpp"
 #include "mesh/filter.hpp"
 
 #include <algorithm>

@@ -3,7 +3,6 @@
 // in its quantised box); tests each point against the 64 boxes of the tets at once; and decides the pairs
 // that are left in single precision (narrow-inl.hpp).
 #include "fast/lookup.hpp"
-#include "base/array.hpp"
 #include "base/prefetch.hpp"
 #include "base/simd.hpp"
 
@@ -80,8 +79,7 @@ HWY_INLINE void FindOwners(const Tiles& tiles, const Tile& tile, std::uint64_t* 
         return;
     }
     for (std::uint32_t i = 0; i < tile.vertex_count; ++i) own[i] = 0;
-    const std::uint8_t* corners =
-        tiles.corners.data() + static_cast<std::size_t>(&tile - tiles.tiles.data()) * 4 * tile_size;
+    const std::uint8_t* corners = tiles.corners_of(static_cast<std::size_t>(&tile - tiles.tiles.data()));
     for (std::uint32_t c = 0; c < 4; ++c)
         for (std::uint32_t i = 0; i < tile.tet_count; ++i)
             own[corners[c * tile_size + i]] |= std::uint64_t{1} << i;
@@ -116,7 +114,7 @@ HWY_NOINLINE void Process(TileWork& w, std::uint32_t count, std::uint32_t own_co
         if (!w.loaded) LoadTile<false>(*w.body.tiles, w.body.positions, tile, s, w.box);
         for (int a = 0; a < 3; ++a) w.scales[a] = MakeScale(w.box.lo[a], w.box.hi[a]);
         const std::size_t index = static_cast<std::size_t>(&tile - w.body.tiles->tiles.data());
-        QuantiseTile(w.body.tiles->corners.data() + index * 4 * tile_size, w.scales, tile.vertex_count, s);
+        QuantiseTile(w.body.tiles->corners_of(index), w.scales, tile.vertex_count, s);
         Corners::Prepare(s, tile.vertex_count);
         w.constants = MakeConstants(w.box, w.body.rounded);
         w.ready = true;
@@ -275,7 +273,7 @@ HWY_INLINE void PrefetchRange(const void* from, std::size_t bytes) {
 HWY_INLINE void PrefetchTile(const Tiles& tiles, const Tile& tile, bool own) {
     const auto index = static_cast<std::size_t>(&tile - tiles.tiles.data());
     PrefetchRange(tiles.vertices.data() + tile.first_vertex, tile.vertex_count * sizeof(std::uint32_t));
-    PrefetchRange(tiles.corners.data() + index * 4 * tile_size, 4 * tile_size);
+    PrefetchRange(tiles.corners_of(index), 4 * tile_size);
     PrefetchRange(tiles.tets.data() + tile.first_tet, tile.tet_count * sizeof(std::uint32_t));
     if (own && !tiles.own.empty())
         PrefetchRange(tiles.own.data() + tile.first_vertex, tile.vertex_count * sizeof(std::uint64_t));

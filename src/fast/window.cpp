@@ -4,7 +4,6 @@
 #include "fast/window.hpp"
 #include "base/simd.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 

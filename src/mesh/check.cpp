@@ -8,7 +8,6 @@
 #include <cinttypes>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <cstring>
 
 namespace vox {
@@ -19,9 +18,8 @@ static_assert(sizeof(Tet) == 4 * sizeof(std::uint32_t) && alignof(Tet) == aligno
 Body check_mesh(const vox_mesh_desc& desc, const char* where, NullPositions null_positions) {
     constexpr std::uint32_t known_flags = VOX_MESH_COPY_POSITIONS | VOX_MESH_BORROW_TETS;
     if (desc.flags & ~known_flags)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("%sflags is 0x%" PRIx32 ", of which 0x%" PRIx32 " is unknown", where, desc.flags,
-                           desc.flags & ~known_flags));
+        refuse(format("%sflags is 0x%" PRIx32 ", of which 0x%" PRIx32 " is unknown", where, desc.flags,
+                      desc.flags & ~known_flags));
     if (desc.positions.count > VOX_MAX_VERTICES)
         throw Error(VOX_ERROR_LIMIT, format("%spositions.count is %" PRIu64 ", the limit is %" PRIu32, where,
                                             desc.positions.count, VOX_MAX_VERTICES));
@@ -30,15 +28,11 @@ Body check_mesh(const vox_mesh_desc& desc, const char* where, NullPositions null
                                             desc.tet_count, VOX_MAX_TETS));
     const Positions positions = check_positions(desc.positions, format("%spositions", where).c_str());
     if (!desc.positions.data && desc.positions.count > 0 && null_positions == NullPositions::rejected)
-        throw Error(
-            VOX_ERROR_INVALID_ARGUMENT,
-            format("%spositions.data is null, positions.count is %" PRIu64, where, desc.positions.count));
+        refuse(format("%spositions.data is null, positions.count is %" PRIu64, where, desc.positions.count));
     if (!desc.tets && desc.tet_count > 0)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("%stets is null, tet_count is %" PRIu64, where, desc.tet_count));
+        refuse(format("%stets is null, tet_count is %" PRIu64, where, desc.tet_count));
     if (reinterpret_cast<std::uintptr_t>(desc.tets) % alignof(Tet) != 0)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("%stets is not aligned to %zu bytes", where, alignof(Tet)));
+        refuse(format("%stets is not aligned to %zu bytes", where, alignof(Tet)));
 
     Body body;
     body.vertex_count = static_cast<std::uint32_t>(desc.positions.count);

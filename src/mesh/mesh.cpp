@@ -1,12 +1,10 @@
 #include "mesh/mesh.hpp"
 
-#include "base/array.hpp"
 #include "base/error.hpp"
 #include "mesh/check.hpp"
 #include "mesh/ids.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace vox {
 

@@ -1,13 +1,11 @@
 #include "mesh/sample.hpp"
 
-#include "base/array.hpp"
 #include "base/bits.hpp"
 #include "base/sampling.hpp"
 #include "base/simd.hpp"
 #include "mesh/facets.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 
@@ -167,7 +165,7 @@ void list_around(const Tiles& tiles, const ChosenVertices& chosen, Listed& out) 
             const std::size_t own = place - tile->first_vertex;
             if (own >= tile->vertex_count) continue; // padding
             const std::uint8_t* corners =
-                tiles.corners.data() + 4 * tile_size * static_cast<std::size_t>(tile - tiles.tiles.begin());
+                tiles.corners_of(static_cast<std::size_t>(tile - tiles.tiles.begin()));
             std::uint64_t tets = tets_at(static_cast<std::uint8_t>(own), corners) & tile->all_tets();
             for (; tets != 0; tets &= tets - 1) {
                 const auto t = static_cast<std::uint32_t>(std::countr_zero(tets));

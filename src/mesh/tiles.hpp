@@ -52,6 +52,9 @@ struct Tiles {
     Array<std::uint32_t> super_first;
     IndexLists blocks; // for each super-tile those that contain its vertices, ascending
 
+    const std::uint8_t* corners_of(std::size_t tile) const noexcept {
+        return corners.data() + tile * 4 * tile_size;
+    }
     std::uint32_t block_count() const noexcept { return intervals(block_first); }
     std::uint32_t super_tile_count() const noexcept { return intervals(super_first); }
     std::uint32_t block_of(std::uint32_t vertex) const noexcept { return interval(block_first, vertex); }

@@ -1,6 +1,5 @@
 #include "mesh/vertex_links.hpp"
 
-#include "base/array.hpp"
 #include "base/error.hpp"
 
 #include <algorithm>

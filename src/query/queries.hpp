@@ -149,8 +149,7 @@ private:
 class Queries::LeafTets {
 public:
     LeafTets(const Mesh& mesh, std::uint32_t tile, const Vec3d* vertices, const Box3f* boxes) noexcept
-        : tets_(*mesh.tets), tile_(tets_.tiles.tiles[tile]),
-          corners_(tets_.tiles.corners.data() + std::size_t{tile} * 4 * tile_size),
+        : tets_(*mesh.tets), tile_(tets_.tiles.tiles[tile]), corners_(tets_.tiles.corners_of(tile)),
           positions_(vertices + mesh.first_vertex), boxes_(boxes + mesh.first_tet + tile_.first_tet) {}
 
     std::size_t size() const noexcept { return tile_.tet_count; }

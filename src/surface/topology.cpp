@@ -1,6 +1,5 @@
 #include "surface/topology.hpp"
 
-#include "base/array.hpp"
 #include "base/error.hpp"
 
 #include <algorithm>

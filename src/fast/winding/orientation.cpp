@@ -112,7 +112,7 @@ HWY_INLINE float OrientTile(const Tiles& tiles, const Boundary& boundary, const 
     TileCorners::Buffer buffer;
     TileCorners::Read(tiles, positions, tile, buffer, box);
     const TileCorners corner(buffer);
-    const std::uint8_t* corners = tiles.corners.data() + std::size_t{t} * 4 * tile_size;
+    const std::uint8_t* corners = tiles.corners_of(t);
     const FilterConstants constants = MakeConstants(box, rounded);
     const std::uint64_t counted = tile.all_tets() & ~boundary.ignored.data()[t];
     std::uint64_t not_positive = 0, not_negative = 0;

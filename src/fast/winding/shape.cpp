@@ -1,5 +1,4 @@
 #include "fast/winding/shape.hpp"
-#include "base/array.hpp"
 #include "base/simd.hpp"
 
 #include <algorithm>
