@@ -26,9 +26,7 @@ vox_filter checked_filter(vox_filter filter) {
     if (!(filter.self_rest_distance >= 0) || std::isinf(filter.self_rest_distance))
         refuse(format("filter self_rest_distance is %g, expected a finite number >= 0",
                       filter.self_rest_distance));
-    if (filter.self_rings > VOX_MAX_RINGS)
-        throw Error(VOX_ERROR_LIMIT,
-                    format("filter self_rings is %u, the limit is %u", filter.self_rings, VOX_MAX_RINGS));
+    check_limit(filter.self_rings, VOX_MAX_RINGS, "filter self_rings");
     return filter;
 }
 
