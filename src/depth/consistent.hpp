@@ -40,7 +40,7 @@ public:
     static constexpr std::uint32_t absent = 0xffffffffu; // the wave of a vertex that does not collide
 
     auto& buffer() noexcept { return entries_; }
-    // For vertices below `vertex_count`. Throws what the memory throws.
+    // Makes room for vertices below `vertex_count`. Throws what the memory throws.
     void reserve(std::size_t vertex_count) {
         if (entries_.size() < vertex_count) entries_.resize(vertex_count);
     }
@@ -55,7 +55,7 @@ private:
     Array<Entry> entries_;
 };
 
-// What find_consistent_depths() keeps from call to call.
+// Buffers that find_consistent_depths() keeps from call to call.
 struct ConsistentScratch {
     explicit ConsistentScratch(std::pmr::memory_resource* memory) : waves(memory), normals(memory) {}
 

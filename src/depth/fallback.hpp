@@ -19,7 +19,7 @@ class Workers;
 
 namespace vox::depth {
 
-// What the stage works on in a step.
+// The input of the stage in a step, and its penetrations.
 struct Scene {
     std::span<const Body> bodies;
     std::span<const Topology* const> topologies;

@@ -56,8 +56,8 @@ private:
     void list_places(const depth::Scene& scene);
     void find_consistent(const depth::Scene& scene, std::size_t pair, Worker& worker);
 
-    // Of the penetrations that are found, pair after pair, each in the order of vertices; and in these lists
-    // the first of each pair.
+    // The places of penetrations to find, pair after pair, each in the order of vertices; and the first of
+    // each pair in this list.
     Array<std::uint32_t> places_, pairs_;
     Array<std::uint32_t> queue_; // for find_consistent_depths(), as long
     PerWorker<Worker> workers_;

@@ -176,7 +176,7 @@ void SurfaceTree::fit_leaves(std::size_t begin, std::size_t end) {
     }
 }
 
-// Whether the frame still suits the positions: the largest coordinate, of which it notes a bound, is neither
+// True if the frame still suits the positions: the largest coordinate, of which it notes a bound, is neither
 // much more than 1, so that nothing overflows, nor much less, which would waste digits.
 bool SurfaceTree::fits_frame() {
     const TreeNode& root = nodes_.back();

@@ -33,7 +33,7 @@ struct Walk {
     // The segment, and the closed tetrahedron in which it begins.
     Vec3d p, q;
     std::uint32_t tet;
-    // Whether the segment leaves the mesh between p and q, and not by a facet where three or more tetrahedra
+    // True if the segment leaves the mesh between p and q, and not by a facet where three or more tetrahedra
     // meet; how many tetrahedra are on its way; and where it leaves, if it does.
     bool leaves;
     std::uint64_t visited;

@@ -64,7 +64,7 @@ bool is_separated(const CornerPositions& begin, const CornerPositions& end, cons
     return true;
 }
 
-// Whether the two certainly do not meet during an interval.
+// True if the two certainly do not meet during an interval.
 bool stay_apart(const SeenMotion& motion, double begin_time, double end_time) noexcept {
     const CornerPositions begin = corners_at(motion, begin_time), end = corners_at(motion, end_time);
     if (stays_on_one_side(begin, end)) return true;

@@ -269,7 +269,7 @@ HWY_INLINE void PrefetchRange(const void* from, std::size_t bytes) {
     for (std::size_t i = 0; i < bytes; i += 64) prefetch(line + i);
 }
 
-// What is read of the tile when it has candidates arrives in the cache while those are fetched.
+// Fetches what a tile with candidates reads into the cache, while the candidates are found.
 HWY_INLINE void PrefetchTile(const Tiles& tiles, const Tile& tile, bool own) {
     const auto index = static_cast<std::size_t>(&tile - tiles.tiles.data());
     PrefetchRange(tiles.vertices.data() + tile.first_vertex, tile.vertex_count * sizeof(std::uint32_t));
@@ -279,8 +279,7 @@ HWY_INLINE void PrefetchTile(const Tiles& tiles, const Tile& tile, bool own) {
         PrefetchRange(tiles.own.data() + tile.first_vertex, tile.vertex_count * sizeof(std::uint64_t));
 }
 
-// Of a window with few points, the tiles of a super-tile together read nearly all: 8 KiB of coordinates and
-// indices at most.
+// The tiles of a super-tile together read nearly all of a window with few points: 8 KiB at most.
 HWY_INLINE void PrefetchWindow(const Window& window) {
     constexpr std::uint32_t few = 512;
     if (window.count > few) return;

@@ -1,4 +1,4 @@
-// What the stages that work on whole tiles share: loading their vertices into registers, and determinants.
+// Shared by stages that work on whole tiles: loading their vertices into registers, and determinants.
 // Included once for each SIMD target, after hwy/highway.h.
 #if defined(VOX_FAST_TILE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef VOX_FAST_TILE_INL
@@ -27,7 +27,7 @@ HWY_INLINE hn::Vec<Four> LoadVertex(const float* positions, std::uint32_t v) {
     return hn::LoadU(Four(), positions + std::size_t{v} * 3);
 }
 
-// The same for the last vertex, without reading past it.
+// Loads the last vertex without reading past it.
 HWY_INLINE hn::Vec<Four> LoadLastVertex(const float* positions, std::uint32_t v) {
     const float* p = positions + std::size_t{v} * 3;
     alignas(16) const float copy[4] = {p[0], p[1], p[2], 0};
@@ -133,7 +133,7 @@ struct Table {
     }
 };
 
-// As Table, of words.
+// A table of words.
 struct WordTable {
     Table floats;
     explicit WordTable(const std::uint32_t* values) : floats(reinterpret_cast<const float*>(values)) {}

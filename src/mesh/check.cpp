@@ -100,7 +100,7 @@ struct WordCounts {
     bool ordinary = true;             // all high words are 0, or from 2^-30 to 2^31
 };
 
-// Of the numbers [first, last), where `first` is even.
+// Counts the numbers [first, last), where `first` is even.
 void count_words(const std::byte* data, std::size_t first, std::size_t last, WordCounts& counts) noexcept {
     constexpr std::size_t high_word = std::endian::native == std::endian::little ? 1 : 0;
     for (std::size_t i = first; i < last; ++i) {

@@ -32,7 +32,7 @@ public:
     std::uint32_t mesh, vertex;
 };
 
-// Whether a coordinate is finite, and rounds to a finite float.
+// True if a coordinate is finite, and rounds to a finite float.
 bool is_finite(const Body& body, std::uint32_t vertex) noexcept;
 
 // The first vertex that is not; VOX_NONE if all are.

@@ -72,8 +72,8 @@ public:
     explicit Mesh(std::pmr::memory_resource* memory) noexcept
         : topology_(memory), tiled_(memory), own_tets_(memory), edits_(memory), owned_(memory),
           self_filter_(memory), exceptions_(memory), filter_(checked_filter({})) {}
-    // Of a checked desc, whose arrays it copies or borrows as the flags say. `view` is what check_mesh() made
-    // of it; `filter` is used in place of desc.filter.
+    // Copies or borrows the arrays of a checked desc, as its flags say. `view` is what check_mesh() made of
+    // it; `filter` is used in place of desc.filter.
     Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter,
          std::pmr::memory_resource* memory);
 
@@ -213,10 +213,10 @@ private:
     Array<vox_body> exceptions_;
     vox_filter filter_;
     std::uint64_t user_data_ = 0;
-    // From here on what each step looks at.
+    // Each step looks at the members from here on.
     std::array<double, 12> transform_{};
     Positions positions_; // without the transform
-    // As the stages see them: those that are off name one vertex four times. The caller's, or in own_tets_.
+    // For the stages: tets that are off name one vertex four times. The caller's, or in own_tets_.
     std::span<const Tet> tets_;
     std::uint32_t vertex_count_ = 0;
     std::uint32_t tiles_version_ = 0;

@@ -94,14 +94,14 @@ ChosenVertices choose_about(std::uint64_t wanted, std::uint64_t of) {
     return {static_cast<std::uint32_t>(static_cast<double>(wanted) / static_cast<double>(of) * 0x1p32)};
 }
 
-// Of a tetrahedron that has a chosen vertex: its corners above that.
+// The corners of a tetrahedron above its chosen vertex.
 struct Above {
     std::uint32_t vertex;
     std::uint32_t count; // 1 to 3
     std::uint32_t v[4];
 };
 
-// What chosen vertices have of a mesh.
+// The parts of a mesh at chosen vertices.
 struct Listed {
     explicit Listed(std::pmr::memory_resource* memory) : above(memory) {}
 
@@ -125,7 +125,7 @@ struct Listed {
     }
 
     Array<Above> above;
-    // Of tetrahedra, that are chosen vertices; those of tetrahedra that name no vertex twice.
+    // Corners that are chosen vertices: of all tetrahedra, and of those that name no vertex twice.
     std::uint64_t corners = 0, proper = 0;
 };
 
@@ -148,8 +148,7 @@ void list_around(const Body& body, const ChosenVertices& chosen, Listed& out) {
     }
 }
 
-// The same from tiles: their vertices are fewer than corners of tetrahedra, and those of a tile together in
-// memory.
+// Does so by tiles: these have fewer vertices than tetrahedra have corners, close together in memory.
 void list_around(const Tiles& tiles, const ChosenVertices& chosen, Listed& out) {
     const auto find = VOX_SIMD_DISPATCH(FindChosen);
     const auto tets_at = VOX_SIMD_DISPATCH(TetsAt);

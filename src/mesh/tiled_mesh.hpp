@@ -35,7 +35,7 @@ struct TilePlaces {
     Array<std::uint64_t> changed_at; // for each super-tile, `changes` when a tet last joined it
 };
 
-// Without tiles for an empty mesh.
+// An empty mesh has no tiles.
 struct TiledMesh {
     explicit TiledMesh(std::pmr::memory_resource* memory) noexcept
         : tiles(memory), boundary(memory), places(memory) {}

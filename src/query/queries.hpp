@@ -70,7 +70,7 @@ public:
     // The hits of ray 0, sorted by (t, body, tet, facet), into an empty `hits`.
     void ray_hits(const Vec3d& from, const Vec3d& to, QueryMeshes which, bool first_only,
                   Array<vox_ray_hit>& hits) const;
-    // Whether a tetrahedron with a volume is on the ray.
+    // True if a tetrahedron with a volume is on the ray.
     bool blocks(const Vec3d& from, const Vec3d& to, QueryMeshes which) const noexcept;
 
 private:

@@ -19,7 +19,7 @@ std::span<const std::uint32_t> corners_in(const SurfaceTopology& topology, vox_f
     return {kind == VOX_FEATURE_VERTEX ? &index : topology.corners(kind, index), corners_of(kind)};
 }
 
-// And where they are at the end of the motion.
+// A feature's corners, and where they are at the end of the motion.
 struct CornersAt {
     CornersAt(const Candidates& of, vox_feature kind, const std::uint32_t& index) noexcept
         : vertices(corners_in(of.topology, kind, index)) {

@@ -1,4 +1,4 @@
-// What is asked about pairs of features that may meet: crossings, distances, clearances, times of contact.
+// Questions about pairs of features that may meet: crossings, distances, clearances, times of contact.
 #pragma once
 
 #include "base/array.hpp"
@@ -45,7 +45,7 @@ struct SharedLeast {
     std::atomic<double> number = 0;
 };
 
-// What workers find of a range of features, in the order of these.
+// Collects what workers find of a range of features, in their order.
 template <class T>
 class Gathered {
 public:

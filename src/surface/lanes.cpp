@@ -50,7 +50,7 @@ void Quantise(const float* HWY_RESTRICT boxes, const QuantisedTile& tile, Quanti
     }
 }
 
-// Does so for one number.
+// Quantises one number.
 HWY_INLINE std::int16_t QuantiseNumber(float x, float low, float per_quantum) {
     const float q = (x - low) * per_quantum + quanta_below, above = q > 0 ? q : 0;
     return static_cast<std::int16_t>((above < most_quanta ? above : most_quanta) + units - units);
@@ -189,7 +189,7 @@ HWY_INLINE void WriteList(const std::uint64_t* HWY_RESTRICT words, std::size_t b
             out += compress.count();
         }
 #else
-        // What is stored beyond the partners is overwritten by the next ones.
+        // The next partners overwrite what is stored beyond these.
         for (; word != 0 && static_cast<std::size_t>(end - out) >= lanes; next += lanes, word >>= lanes) {
             const Compressor compress(static_cast<std::uint32_t>(word & ((1u << lanes) - 1)));
             hn::StoreU(compress(hn::LoadU(d, next)), d, out);

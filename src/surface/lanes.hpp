@@ -54,7 +54,7 @@ struct FloatOverlaps {
 };
 FloatOverlaps compare_floats(const float* boxes, const float* box, float close_by);
 
-// From the lanes of each partner of a tile to the partners of each lane, 64 by 64.
+// Lists turn the lanes of each partner of a tile into the partners of each lane, 64 by 64.
 inline constexpr std::size_t partners_a_block = 64;
 
 // `words`: of 64 partners a block, the lanes of each as bits. Afterwards they are 64 lanes a block, the

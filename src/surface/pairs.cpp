@@ -167,8 +167,8 @@ void PairSearch::cull_found(const Task& task, const TileSearch& tile, Worker& wo
     worker.count = static_cast<std::size_t>(end - found.begin());
 }
 
-// Those of the lanes whose boxes overlap that of a slot of b: by the floats that bound them, and where these
-// cannot tell, as the caller's format has them.
+// Returns the lanes whose boxes overlap the box of a slot of b: floats that bound them decide, and where
+// these cannot tell, the caller's format.
 std::uint64_t PairSearch::overlapping(const Task& task, const TileSearch& tile, std::uint64_t lanes,
                                       std::uint32_t slot, Worker& worker) noexcept {
     const FeatureTiles &a = task.a, &b = task.b;

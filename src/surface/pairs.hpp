@@ -146,7 +146,7 @@ private:
         Array<Found> near, found;
         std::size_t count = 0;
         Array<std::uint64_t> around; // of each vertex: the lanes that it is a corner of
-        // Those of all vertices that share a remainder.
+        // Lanes of all vertices that share a remainder.
         std::array<std::uint64_t, folded_vertices> around_folded;
         // By all tiles so far: for each 64 partners, those of each lane as bits; and the partners.
         Array<std::uint64_t> kept;

@@ -23,7 +23,7 @@ void copy_features(const std::uint32_t* from, std::uint64_t count, std::uint32_t
                             format("%s %zu names vertex %u of %u", name, i, v, vertex_count));
 }
 
-// Each edge of a face once, lower vertex first, ascending.
+// Lists each edge of a face once, lower vertex first, ascending.
 void list_edges(std::span<const SurfaceFace> faces, Array<SurfaceEdge>& out) {
     Array<std::uint64_t> keys(out.memory());
     keys.reserve(3 * faces.size());

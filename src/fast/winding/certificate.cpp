@@ -120,7 +120,7 @@ void Facing(TriangleBatch& batch, std::size_t count, const WindowLattice& lattic
         }
         const V minus_bound = hn::Neg(bound);
         const V xpy = hn::Add(n[0], n[1]), xmy = hn::Sub(n[0], n[1]);
-        // In the order of `directions`.
+        // They are in the order of `directions`.
         const V sums[13] = {n[0],
                             n[1],
                             n[2],

@@ -28,7 +28,7 @@ struct CertifiedCells {
     Array<std::uint8_t> certified; // of each cell, 1 or 0; and `run` more, to read so many at once
     bool complete = false;         // whether all cells are certified
 
-    // Whether all cells that meet `box` are certified; false as well where they are too many to look at.
+    // True if all cells that meet `box` are certified; false as well where they are too many to look at.
     bool holds(const Box& box) const noexcept {
         static constexpr std::uint8_t ones[2 * run] = {1, 1, 1, 1, 1, 1, 1, 1};
         constexpr std::uint32_t few = 16; // vertices of such a block are looked up one by one
@@ -70,7 +70,7 @@ struct Components {
     Array<std::uint32_t> rows; // of each row its first run, and the end
     std::uint32_t count = 0;
 
-    // Of the cells with values[cell] == wanted.
+    // Finds the components of the cells with values[cell] == wanted.
     void find(const std::uint32_t* values, std::uint32_t wanted, const std::uint32_t (&cells)[3]);
 
 private:
