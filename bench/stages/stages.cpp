@@ -249,17 +249,12 @@ std::vector<Stage> stages_of(WholeStep& w, Bodies& s) {
         {"stream", "vertex", w.vertices, [&w] { w.stream(); }},
         {"winding", "tet", tets,
          [&s] {
-             const fast::WindingBody body{s.tiles,
-                                          s.surface,
-                                          packed(s.a),
-                                          s.vertices,
+             const fast::WindingBody body{{s.tiles, s.surface, packed(s.a), s.vertices, false, 0,
+                                           s.change.data(), s.positive.data(), s.tile_boxes.data(),
+                                           s.known.data()},
                                           s.box_a,
                                           2.3,
                                           s.super_boxes.data(),
-                                          s.change.data(),
-                                          s.positive.data(),
-                                          s.tile_boxes.data(),
-                                          s.known.data(),
                                           s.turning,
                                           nullptr};
              fast::certify(body, s.certificate, s.exact_tests);

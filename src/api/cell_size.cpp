@@ -48,9 +48,7 @@ void read_bodies(const vox_mesh_desc* meshes, std::uint64_t count, vox_cost_mode
     Array<Body>& bodies = scene.bodies;
     if (count == 0) return;
     require(meshes, "meshes");
-    if (count > VOX_MAX_BODIES)
-        throw Error(VOX_ERROR_LIMIT,
-                    format("mesh_count is %" PRIu64 ", the limit is %u", count, VOX_MAX_BODIES));
+    check_limit(count, VOX_MAX_BODIES, "mesh_count");
     check_out_struct(meshes, "meshes[0]");
     const std::uint32_t stride = meshes->struct_size;
     if (stride % alignof(vox_mesh_desc) != 0)

@@ -15,8 +15,7 @@ namespace {
 std::span<const std::uint32_t> read_numbers(const std::uint32_t* numbers, std::uint64_t count,
                                             std::size_t each, const char* name) {
     if (count > 0) require(numbers, name);
-    if (count > VOX_MAX_TETS)
-        throw Error(VOX_ERROR_LIMIT, format("count is %" PRIu64 ", the limit is %u", count, VOX_MAX_TETS));
+    check_limit(count, VOX_MAX_TETS, "count");
     if (reinterpret_cast<std::uintptr_t>(numbers) % alignof(std::uint32_t) != 0)
         refuse(format("%s is not aligned to %zu bytes", name, alignof(std::uint32_t)));
     return {numbers, static_cast<std::size_t>(count) * each};

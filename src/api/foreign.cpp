@@ -1,14 +1,17 @@
-// The C border of vox_cell_size.h's section on other uniform grids. Functions that take timings are in
-// tune.cpp.
+// The C border of vox_cell_size.h's section on other uniform grids.
 
 #include "base/border.hpp"
 #include "base/caller_memory.hpp"
 #include "base/structs.hpp"
+#include "cell_size/foreign/fit.hpp"
 #include "cell_size/foreign/grid.hpp"
 #include "cell_size/foreign/suggest.hpp"
+#include "cell_size/foreign/tune.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <memory_resource>
 
 using namespace vox;
@@ -39,5 +42,105 @@ vox_result vox_foreign_grid_count(const vox_foreign_grid* grid, double cell_size
                         format("cell_size is %g, so small that there would be more than %g cells or entries",
                                cell_size, most_counted));
         *out = work.exactly_at(cell_size);
+    });
+}
+
+// ---- timings --------------------------------------------------------------------------------------
+
+namespace {
+
+// A described grid, and its terms. Only a dense grid touches all cells.
+struct DescribedGrid {
+    explicit DescribedGrid(const vox_foreign_grid* from_caller)
+        : grid(from_caller), memory(grid.desc.allocator), work(grid, quick_look(grid), &memory),
+          basis(described_basis(
+              [this](double cell_size) {
+                  vox_foreign_counts counts = work.at(cell_size);
+                  if (!grid.dense()) counts.cells = 0;
+                  return counts;
+              },
+              grid.desc.weights)) {}
+    DescribedGrid(const DescribedGrid&) = delete;
+    DescribedGrid& operator=(const DescribedGrid&) = delete;
+
+    FitSettings fit_settings() const { return {work.least_cell_size(), grid.desc.zone_loss}; }
+
+    ForeignGrid grid;
+    CallerMemory memory;
+    ForeignWork work;
+    CostBasis basis;
+};
+
+// The first cell size is that of the desc, or the one suggested, or 0 where no grid is described.
+TuneSettings read_settings(const vox_tune_desc& desc, const FitSettings& fit, double suggested) {
+    TuneSettings settings{
+        fit, desc.max_runs, desc.wanted_loss, desc.first > 0 ? desc.first : suggested, {desc.min, desc.max}};
+    CellSizeRange& range = settings.range;
+    const double first = settings.first, least = fit.least_cell_size;
+    set_default(settings.max_runs, 7u);
+    set_default(settings.wanted_loss, 0.02);
+    const auto at_least_0 = [](const char* name, double value) {
+        if (!(value >= 0) || !std::isfinite(value))
+            refuse(format("desc.%s is %g, expected a finite number of at least 0", name, value));
+    };
+    if (settings.max_runs < 3 || settings.max_runs > VOX_TIMING_CAPACITY)
+        refuse(format("desc.max_runs is %u, expected 3 to %u", desc.max_runs, VOX_TIMING_CAPACITY));
+    at_least_0("min", desc.min);
+    at_least_0("max", desc.max);
+    at_least_0("first", desc.first);
+    at_least_0("wanted_loss", desc.wanted_loss);
+    if ((desc.min > 0) != (desc.max > 0) || desc.min > desc.max)
+        refuse(
+            format("desc.min and max are %g and %g, expected 0 < min <= max, or both 0", desc.min, desc.max));
+    if (desc.first > 0 && desc.max > 0 && !(desc.first >= desc.min && desc.first <= desc.max))
+        refuse(format("desc.first is %g, expected from min, %g, to max, %g", desc.first, desc.min, desc.max));
+    if (!(first > 0)) refuse("desc.first is 0, and no grid is described that a first cell size follows from");
+    if (desc.first > 0 && desc.first < least)
+        refuse(format("desc.first is %g, the smallest that gives right answers is %g", desc.first, least));
+    if (desc.max > 0 && desc.max < least)
+        refuse(format("desc.max is %g, the smallest that gives right answers is %g", desc.max, least));
+    if (!(range.max > 0)) range = {first / 8, first * 8};
+    range.min = std::max(range.min, least);
+    settings.first = std::clamp(first, range.min, range.max);
+    if (!(range.min > 0) || !std::isfinite(range.max))
+        refuse(format("the first cell size is %g, too far from 1 for an eighth or eight times it", first));
+    return settings;
+}
+
+} // namespace
+
+vox_result vox_foreign_grid_fit(const vox_foreign_grid* grid, const vox_timing* timings, uint64_t count,
+                                vox_cell_size_result* out) {
+    return border([&] {
+        check_out_struct(out, "out");
+        if (count > 0) require(timings, "timings");
+        check_limit(count, UINT32_MAX, "count");
+        DescribedGrid described(grid);
+        write_struct(out,
+                     fit_timings(described.basis, described.fit_settings(),
+                                 {timings, static_cast<std::size_t>(count)}, &described.memory),
+                     "out");
+    });
+}
+
+vox_result vox_foreign_grid_tune(const vox_foreign_grid* grid, const vox_tune_desc* desc,
+                                 vox_foreign_run* run, void* user, vox_cell_size_result* out) {
+    return border([&] {
+        check_out_struct(out, "out");
+        if (!run) refuse("run is null");
+        const vox_tune_desc asked = desc ? read_struct(desc, "desc") : vox_default_tune_desc();
+        const GridRun run_of_caller = [&](double cell_size) {
+            const CallersFloats floats;
+            return run(cell_size, user);
+        };
+        if (!grid) {
+            const TuneSettings settings = read_settings(asked, {}, 0);
+            write_struct(out, tune(nullptr, settings, run_of_caller, std::pmr::new_delete_resource()), "out");
+            return;
+        }
+        DescribedGrid described(grid);
+        const double suggested = asked.first > 0 ? 0 : suggest_for(described.grid, described.work).cell_size;
+        const TuneSettings settings = read_settings(asked, described.fit_settings(), suggested);
+        write_struct(out, tune(&described.basis, settings, run_of_caller, &described.memory), "out");
     });
 }

@@ -48,7 +48,7 @@ inline bool overlap(const Box& a, const Box& b) noexcept {
 #endif
 }
 
-// Whether all sides are finite.
+// True if all sides are finite.
 inline bool has_ends(const Box& a) noexcept {
     bool all = true;
     for (int i = 0; i < 3; ++i) all &= std::isfinite(a.lo[i]) && std::isfinite(a.hi[i]);

@@ -2,7 +2,7 @@
 
 #include "base/structs.hpp"
 
-#include <cstring>
+#include <iterator>
 
 namespace {
 
@@ -24,34 +24,20 @@ vox_result vox_fail(vox_result result, const char* text) {
 const char* vox_last_error(void) { return last_error; }
 
 const char* vox_result_string(vox_result result) {
-    switch (vox::enum_value(result)) {
-    case VOX_OK:
-        return "VOX_OK";
-    case VOX_ERROR_INVALID_ARGUMENT:
-        return "VOX_ERROR_INVALID_ARGUMENT";
-    case VOX_ERROR_INVALID_HANDLE:
-        return "VOX_ERROR_INVALID_HANDLE";
-    case VOX_ERROR_INVALID_MESH:
-        return "VOX_ERROR_INVALID_MESH";
-    case VOX_ERROR_INVALID_STATE:
-        return "VOX_ERROR_INVALID_STATE";
-    case VOX_ERROR_NON_FINITE:
-        return "VOX_ERROR_NON_FINITE";
-    case VOX_ERROR_LIMIT:
-        return "VOX_ERROR_LIMIT";
-    case VOX_ERROR_BUDGET:
-        return "VOX_ERROR_BUDGET";
-    case VOX_ERROR_OUT_OF_MEMORY:
-        return "VOX_ERROR_OUT_OF_MEMORY";
-    case VOX_ERROR_UNSUPPORTED:
-        return "VOX_ERROR_UNSUPPORTED";
-    case VOX_ERROR_FILE:
-        return "VOX_ERROR_FILE";
-    case VOX_ERROR_FORMAT:
-        return "VOX_ERROR_FORMAT";
-    case VOX_ERROR_INTERNAL:
-        return "VOX_ERROR_INTERNAL";
-        break;
-    }
-    return "unknown vox_result";
+    constexpr const char* names[] = {"VOX_OK",
+                                     "VOX_ERROR_INVALID_ARGUMENT",
+                                     "VOX_ERROR_INVALID_HANDLE",
+                                     "VOX_ERROR_INVALID_MESH",
+                                     "VOX_ERROR_INVALID_STATE",
+                                     "VOX_ERROR_NON_FINITE",
+                                     "VOX_ERROR_LIMIT",
+                                     "VOX_ERROR_BUDGET",
+                                     "VOX_ERROR_OUT_OF_MEMORY",
+                                     "VOX_ERROR_UNSUPPORTED",
+                                     "VOX_ERROR_FILE",
+                                     "VOX_ERROR_FORMAT",
+                                     "VOX_ERROR_INTERNAL"};
+    static_assert(std::size(names) == 1 - VOX_ERROR_INTERNAL);
+    const std::int32_t value = vox::enum_value(result);
+    return value <= 0 && value >= VOX_ERROR_INTERNAL ? names[-value] : "unknown vox_result";
 }

@@ -86,6 +86,14 @@ inline std::string format(const char* pattern, ...) {
 
 [[noreturn]] inline void refuse(const std::string& text) { throw Error(VOX_ERROR_INVALID_ARGUMENT, text); }
 
+// Throws LIMIT, with the name of the number, when it is above `most`.
+inline void check_limit(std::uint64_t number, std::uint64_t most, const char* name) {
+    if (number > most)
+        throw Error(VOX_ERROR_LIMIT,
+                    format("%s is %llu, the limit is %llu", name, static_cast<unsigned long long>(number),
+                           static_cast<unsigned long long>(most)));
+}
+
 // Throws INVALID_ARGUMENT, with the name of the parameter, when `pointer` is null.
 inline void require(const void* pointer, const char* name) {
     if (!pointer) refuse(format("%s is null", name));

@@ -46,7 +46,7 @@ HWY_INLINE Bytes LookUpBytes(Bytes table, Bytes index) {
     return Bytes{wasm_i8x16_swizzle(table.raw, index.raw)};
 }
 
-// For LookUpLanes: indices of lanes in a register.
+// Indices of lanes in a register, for LookUpLanes.
 template <class D>
 struct LaneIndices {
     static_assert(sizeof(hn::TFromD<D>) == 4);

@@ -1,5 +1,4 @@
 #include "base/lists.hpp"
-#include "base/array.hpp"
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-// What each worker of a step has of its own: buffers kept from step to step, counts of the step.
+// The state of each worker: buffers kept from step to step, and counts of the step.
 #pragma once
 
 #include "base/array.hpp"

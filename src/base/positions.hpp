@@ -37,9 +37,7 @@ inline Positions check_positions(const vox_positions& given, const char* name) {
                       name, component, count, stride));
     const std::uint64_t least = together ? 3 * number : number;
     if (stride < least && (together || count > 1))
-        throw Error(
-            VOX_ERROR_INVALID_ARGUMENT,
-            format("%s.byte_stride is %" PRIu64 ", expected 0 or at least %" PRIu64, name, stride, least));
+        refuse(format("%s.byte_stride is %" PRIu64 ", expected 0 or at least %" PRIu64, name, stride, least));
     const bool rows = stride >= 2 * component + number;
     const bool columns = count <= 1 || component >= (count - 1) * stride + number;
     if (component < number || (!rows && !columns))

@@ -7,17 +7,27 @@
 #include <bit>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 namespace vox {
+
+// The number before x, in the order of floats or doubles: that of std::nextafter(x, -infinity), but without a
+// call or a branch. x is a number.
+template <class Number>
+Number number_before(Number x) noexcept {
+    using Bits = std::conditional_t<sizeof(Number) == 4, std::uint32_t, std::uint64_t>;
+    constexpr Bits sign = Bits{1} << (8 * sizeof(Number) - 1);
+    constexpr auto lowest = std::bit_cast<Bits>(-std::numeric_limits<Number>::infinity());
+    const Bits bits = x == 0 ? sign : std::bit_cast<Bits>(x);
+    const Bits is_negative = bits >> (8 * sizeof(Number) - 1), is_lowest = bits == lowest;
+    return std::bit_cast<Number>(bits + (2 * is_negative - 1) * (1 - is_lowest));
+}
 
 // The largest float that is not above x, and no more than the largest finite one.
 inline float rounded_down(double x) noexcept {
     const float f = std::min(static_cast<float>(x), std::numeric_limits<float>::max()); // to nearest
-    // Where that is above x, the float before it. Without a branch, which would mispredict for half of all
-    // numbers.
-    const std::uint32_t bits = f == 0 ? 0x80000000u : std::bit_cast<std::uint32_t>(f);
-    const std::uint32_t is_above = double{f} > x, is_negative = bits >> 31;
-    return std::bit_cast<float>(bits + is_above * (2 * is_negative - 1));
+    const auto before = std::bit_cast<std::uint32_t>(number_before(f));
+    return std::bit_cast<float>(double{f} > x ? before : std::bit_cast<std::uint32_t>(f));
 }
 
 // The smallest float that is not below x.

@@ -39,17 +39,17 @@ struct Positions {
     const double* transform = nullptr; // three rows of four (vox_body_set_transform), or null
     std::size_t component_gap = 0; // bytes between the numbers of a position; 0 unless they are in columns
 
-    // Whether operator[] may differ from exact().
+    // True if operator[] may differ from exact().
     bool rounded() const noexcept { return doubles || transform; }
 
     Vec3d exact(std::size_t vertex) const noexcept {
         return rounded() ? exact_of_rounded(vertex) : floats(vertex);
     }
 
-    // For a vertex that is looked at soon.
+    // The address to prefetch for a vertex.
     const std::byte* place_of(std::size_t vertex) const noexcept { return data + vertex * byte_stride; }
 
-    // Only for positions that are not rounded().
+    // Positions must not be rounded().
     Vec3f floats(std::size_t vertex) const noexcept { return read<Vec3f, float>(vertex); }
 
     // Writes the three numbers of a position as they are, without the transform, one after the other.

@@ -109,7 +109,7 @@ struct Scheduler::Pool {
         for (std::thread& thread : threads_) thread.join();
     }
 
-    // Whether this is a copy, made by fork, of a pool whose threads are in the parent. Such a pool cannot be
+    // True if this is a copy, made by fork, of a pool whose threads are in the parent. Such a pool cannot be
     // used, and not even destroyed.
     bool is_parents() const noexcept {
 #if defined(VOX_CAN_FORK)
@@ -119,7 +119,7 @@ struct Scheduler::Pool {
 #endif
     }
 
-    // Whether the system gave too few threads. It may give a new pool more.
+    // True if the system gave too few threads. It may give a new pool more.
     bool lacks_threads() const noexcept { return tried_ && threads_.size() + 1 < worker_count; }
 
     void run(vox_task* task, std::uint64_t items, std::uint64_t min_range, void* context) {
@@ -294,7 +294,7 @@ namespace {
 
 // No mutex: a fork could copy it locked. A copied scheduler makes threads of its own.
 constinit std::atomic<Scheduler*> last_calls = nullptr;
-// Whether at_end was destroyed. Grids may be stepped after that, in the destructors of other objects.
+// True if at_end was destroyed. Grids may be stepped after that, in the destructors of other objects.
 constinit std::atomic<bool> has_ended = false;
 
 struct AtEnd {

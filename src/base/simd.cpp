@@ -103,17 +103,8 @@ void require_instructions(Level best) {
 }
 
 const char* level_name(Level level) noexcept {
-    switch (level) {
-    case Level::sse4:
-        return "SSE4";
-    case Level::avx2:
-        return "AVX2";
-    case Level::avx512:
-        return "AVX-512";
-    case Level::portable:
-        break;
-    }
-    return "portable";
+    constexpr const char* names[] = {"portable", "SSE4", "AVX2", "AVX-512"};
+    return names[static_cast<int>(level)];
 }
 
 } // namespace vox::simd

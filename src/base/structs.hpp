@@ -53,7 +53,7 @@ T read_struct(const T* in, const char* name) {
     return read;
 }
 
-// What an optional pointer of a desc points to, or zeros.
+// Reads what an optional pointer of a desc points to, or zeros.
 template <class T>
 T value_of(const T* in) {
     return in ? *in : T{};

@@ -3,11 +3,11 @@
 
 #include "base/scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace vox {
 
-inline Vec3d vec(const Vec3f& p) noexcept { return {double{p.x}, double{p.y}, double{p.z}}; }
 inline Vec3f nearest_floats(const Vec3d& p) noexcept {
     return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
 }
@@ -24,6 +24,20 @@ inline Vec3d min(const Vec3d& a, const Vec3d& b) noexcept {
 }
 inline Vec3d max(const Vec3d& a, const Vec3d& b) noexcept {
     return {b.x > a.x ? b.x : a.x, b.y > a.y ? b.y : a.y, b.z > a.z ? b.z : a.z};
+}
+// The middle of a box, in coordinates where it is more than `far` sides of the box away from zero; else zero.
+inline Vec3d far_middle(const Vec3d& lo, const Vec3d& hi, double far) noexcept {
+    const auto middle = [far](double low, double high) {
+        const double at = 0.5 * low + 0.5 * high;
+        return std::abs(at) > far * (high - low) ? at : 0;
+    };
+    return {middle(lo.x, hi.x), middle(lo.y, hi.y), middle(lo.z, hi.z)};
+}
+inline double largest_coordinate(const Vec3d& v) noexcept {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+inline Vec3d times_power(const Vec3d& v, int powers) noexcept { // of two
+    return {std::ldexp(v.x, powers), std::ldexp(v.y, powers), std::ldexp(v.z, powers)};
 }
 // The determinant of the matrix with these rows: six times the signed volume of the tetrahedron that they
 // span.

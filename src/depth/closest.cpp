@@ -3,12 +3,9 @@
 #include "depth/closest.hpp"
 
 #include "base/vectors.hpp"
-#include "depth/points.hpp"
 #include "exact/closest_point.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace vox::depth {
 
@@ -70,7 +67,7 @@ protected:
         found = closest_point(tree_.solid_, triangle, p_);
         return true;
     }
-    // As VisitTriangle, for a receiver with take() and reach().
+    // The VisitTriangle of a receiver with take() and reach().
     template <class Kind>
     static float visit(void* self, std::uint32_t triangle) {
         static_cast<Kind*>(self)->take(triangle);
@@ -158,7 +155,7 @@ Vec3d way_to(const Solid& solid, const Place& place, const Vec3d& p, const Close
     return (a - p) + t * along;
 }
 
-// Whether no point of the surface next to the place is nearer than the place is, which is at the end of
+// True if no point of the surface next to the place is nearer than the place is, which is at the end of
 // `way`.
 bool is_local_minimum(const Solid& solid, const Place& place, const Vec3d& way) {
     if (place.count == 3) return true;
@@ -199,7 +196,7 @@ public:
         return a.squared != b.squared ? a.squared < b.squared
                                       : topology_.before(a.at.triangle, b.at.triangle);
     }
-    // To be asked before add().
+    // Call it before add().
     bool wants(const Closest& found) const {
         return size_ < capacity || before(found, list_[size_ - 1].found);
     }
@@ -229,7 +226,7 @@ private:
     std::size_t size_ = 0;
 };
 
-// For a vertex that is in a fold: keeps the nearest places.
+// Keeps the nearest places for a vertex in a fold.
 class SurfaceTree::NearestPlaces : Receiver {
 public:
     NearestPlaces(const SurfaceTree& tree, const Line& line, std::uint32_t part, SearchState& state)
@@ -264,7 +261,7 @@ private:
     Nearest<4> places_;
 };
 
-// For a vertex that is in a fold: tries the nearest places where the distance has a local minimum.
+// Tries the nearest places where the distance from a vertex in a fold has a local minimum.
 class SurfaceTree::NearestMinima : Receiver {
 public:
     // Those in `tried` are known not to be reached. None is tried at a greater squared distance than
@@ -290,7 +287,7 @@ private:
         return query_.reach(is_reached_ ? std::min(squared, reached_.found.squared) : squared);
     }
 
-    // Each is tried at once, since one that is reached makes the search short.
+    // Tries each place at once, since one that is reached makes the search short.
     void take(std::uint32_t triangle) {
         Closest found;
         if (!look_at(triangle, found)) return;
@@ -330,7 +327,7 @@ double SurfaceTree::squared_exit(const Line& line, const Vec3d& way) const {
     return dot(whole, whole);
 }
 
-// Whether a line leads inside the fold to the point at the end of `way`.
+// True if a line leads inside the fold to the point at the end of `way`.
 bool SurfaceTree::reaches(const Line& line, const Vec3d& way) const {
     if (dot(way, way) == 0) return true;
     // The walk goes twice as far, so that rounding does not end it too early.

@@ -30,7 +30,7 @@ struct Closest {
 // The closest point of one triangle.
 Closest closest_point(const Solid& solid, std::uint32_t triangle, const Vec3d& p);
 
-// What one search leaves to the next, and what searches count. The answers do not depend on it.
+// State that one search leaves to the next, and counts. The answers do not depend on it.
 struct SearchState {
     static constexpr std::uint32_t none = ~0u;
 
@@ -51,7 +51,7 @@ public:
     // linear in its size. `workers` may be null.
     void update(const Solid& solid, bool folds, Workers* workers);
 
-    // To be called when the topology has changed.
+    // Call it when the topology has changed.
     void invalidate() noexcept;
 
     // Vertices connected by edges make a part of the mesh. This is the name of the one with a tetrahedron, or
@@ -126,10 +126,37 @@ private:
     Vec3d middle_{};
     double scale_ = 1;
     float most_ = 0; // the largest coordinate, in magnitude
-    // Of each vertex, the lowest vertex of its part; empty when there is only one part, or folds were not
-    // asked for. And of each leaf and node the part of its triangles, as TreeView has it.
+    // For each vertex the lowest vertex of its part; empty when there is only one part, or folds were not
+    // asked for. And for each leaf and node the part of its triangles, as TreeView has it.
     Array<std::uint32_t> part_, part_of_nodes_;
     bool is_built_ = false, has_parts_ = false;
+};
+
+// The trees over surfaces that were searched, one for each such mesh, kept from step to step. Depths of
+// vertices and of edges share them.
+class SurfaceTrees {
+public:
+    explicit SurfaceTrees(std::pmr::memory_resource* memory) : trees_(memory) {}
+
+    // Adds one for a mesh, unless it has one. Throws what the memory throws.
+    void add(std::uint32_t mesh_id);
+    // The tree of a mesh that has one, until another is added or forgotten. update() must fit it before
+    // each search, even if positions are the same: it refers to the arrays of the mesh.
+    SurfaceTree& operator[](std::uint32_t mesh_id) noexcept;
+
+    void topology_changed(std::uint32_t mesh_id) noexcept;
+    void forget(std::uint32_t mesh_id) noexcept;
+    void forget_all() noexcept;
+
+private:
+    struct Tree {
+        std::uint32_t mesh_id;
+        SurfaceTree tree;
+    };
+    // The place of a mesh's tree, or where it would be.
+    Tree* place(std::uint32_t mesh_id) noexcept;
+
+    Array<Tree> trees_; // by body id
 };
 
 } // namespace vox::depth

@@ -78,7 +78,7 @@ private:
     Vec3d way_{0, 0, 0}, direction_{0, 0, 0};
 };
 
-// What edges from border points are followed together.
+// Edges from border points that are followed together.
 constexpr std::size_t walks_at_once = 64;
 
 class Stages {
@@ -181,11 +181,10 @@ private:
     } border_;
 };
 
-// What the point that comes so much later reads is prefetched, and twice and three times as early what leads
-// there: bench/README.md has what that gains.
+// Prefetches run so many points ahead, and twice and three times as many for what leads to their data.
 constexpr std::size_t ahead = 8;
 
-// Of the points that vertex(i) names for i below `count`, those that follow `next`.
+// Prefetches the links of points after `next`; vertex(i) names point i, for i below `count`.
 template <class Vertex>
 void Stages::prefetch_links(std::size_t next, std::size_t count, Vertex&& vertex) const {
     const VertexLinks& links = pair_.topology_a->links;
@@ -229,7 +228,7 @@ void Stages::find_border() {
     finish_border_point();
 }
 
-// Whether a point on the boundary of its tetrahedron is on the surface. It is when the corners whose weights
+// True if a point on the boundary of its tetrahedron is on the surface. It is when the corners whose weights
 // are not zero are corners of one triangle of the surface. Sets its state and direction then.
 bool Stages::is_coincident(std::uint32_t place, std::uint32_t number) {
     const Solid& b = pair_.b;
@@ -335,7 +334,7 @@ void Stages::finish_border_point() {
                              ? VOX_DEPTH_SURFACE
                              : border_.nearest.write(*border_.depth);
     const bool is_crossing = *border_.state == VOX_DEPTH_AMBIGUOUS;
-    lost_ += is_crossing && !has_answer(*border_.depth);
+    lost_ += is_crossing && !border_.depth->has_answer();
     push(border_.vertex, is_crossing ? unusable : 1);
 }
 
@@ -356,7 +355,7 @@ std::uint32_t Stages::propagate(std::uint32_t wave, bool is_crossing) {
             if (state(queue_[i]) != VOX_DEPTH_TOUCHING) take_mean(queue_[i], is_crossing);
         }
         if (is_crossing) continue;
-        // Only now, because points of one wave must not see each other.
+        // Marked only now, because points of one wave must not see each other.
         for (std::size_t i = last; i < queued_; ++i)
             if (state(queue_[i]) == VOX_DEPTH_AMBIGUOUS) waves_.set_wave(queue_[i], unusable);
     }
@@ -370,7 +369,7 @@ void Stages::propagate_crossing(std::uint32_t wave) {
     for (const std::uint32_t place : pair_.places) {
         const std::uint32_t vertex = vertex_at(place);
         if (wave_of(vertex) == unusable)
-            waves_.set_wave(vertex, has_answer(penetrations_.depth_of(place)) ? wave : unreached);
+            waves_.set_wave(vertex, penetrations_.depth_of(place).has_answer() ? wave : unreached);
         if (wave_of(vertex) != unreached) queue_[queued_++] = vertex;
     }
     propagate(wave + 1, true);

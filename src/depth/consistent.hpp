@@ -4,7 +4,7 @@
 #include "base/array.hpp"
 #include "base/bits.hpp"
 #include "depth/normals.hpp"
-#include "depth/points.hpp"
+#include "depth/penetrations.hpp"
 
 #include <cstdint>
 #include <memory_resource>
@@ -12,6 +12,21 @@
 #include <tuple>
 
 namespace vox::depth {
+
+// The colliding vertices of a pair of bodies: those of body a in tetrahedra of body b. A point is such a
+// vertex, and what is known of it is its penetration.
+struct BodyPair {
+    const Topology* topology_a;
+    Positions positions_a;
+    std::uint32_t vertex_count_a;
+    Solid b;
+    bool self;
+    std::span<const std::uint32_t> places; // of their penetrations, in the order of vertices
+};
+
+struct Counts {
+    std::uint64_t leaving_edges = 0, edge_tests = 0, closest_tests = 0; // as in Counters
+};
 
 // The colliding vertices of a body: for each the place of its penetration, and the wave in which depth and
 // direction were found, by the number of the vertex.
@@ -25,7 +40,7 @@ public:
     static constexpr std::uint32_t absent = 0xffffffffu; // the wave of a vertex that does not collide
 
     auto& buffer() noexcept { return entries_; }
-    // For vertices below `vertex_count`. Throws what the memory throws.
+    // Makes room for vertices below `vertex_count`. Throws what the memory throws.
     void reserve(std::size_t vertex_count) {
         if (entries_.size() < vertex_count) entries_.resize(vertex_count);
     }
@@ -40,7 +55,7 @@ private:
     Array<Entry> entries_;
 };
 
-// What find_consistent_depths() keeps from call to call.
+// Buffers that find_consistent_depths() keeps from call to call.
 struct ConsistentScratch {
     explicit ConsistentScratch(std::pmr::memory_resource* memory) : waves(memory), normals(memory) {}
 
@@ -51,8 +66,8 @@ struct ConsistentScratch {
 };
 
 // Sets the states of the pair's penetrations, which begin() made, and depth and direction of all but those
-// that need a closest point: ENCLOSED ones, and CROSSING ones to which no edge helps (has_answer() of
-// points.hpp). `queue` is as long as pair.places, and is written to. Throws what the memory throws.
+// that need a closest point: ENCLOSED ones, and CROSSING ones to which no edge helps
+// (Depth::has_answer). `queue` is as long as pair.places, and is written to. Throws what the memory throws.
 // `hits` are those that the penetrations are of.
 void find_consistent_depths(const BodyPair& pair, std::span<const Hit> hits, Penetrations& penetrations,
                             std::span<std::uint32_t> queue, ConsistentScratch& scratch, Counts& counts);

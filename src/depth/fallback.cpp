@@ -18,12 +18,10 @@ constexpr std::size_t chunk_size = 64;
 
 } // namespace
 
-const Hit& Fallback::Scene::hit(std::uint32_t place) const { return hits[penetrations.of(place).contact]; }
-
-bool Fallback::Scene::needs_search(std::uint32_t place) const {
+bool Scene::needs_search(std::uint32_t place) const {
     const vox_depth_state state = penetrations.of(place).state;
     return (state == VOX_DEPTH_CLOSEST || state == VOX_DEPTH_AMBIGUOUS) &&
-           !has_answer(penetrations.depth_of(place));
+           !penetrations.depth_of(place).has_answer();
 }
 
 Fallback::Fallback(std::pmr::memory_resource* memory, SurfaceTrees& trees)

@@ -4,9 +4,9 @@
 #include "base/array.hpp"
 #include "base/per_worker.hpp"
 #include "base/scene.hpp"
+#include "depth/closest.hpp"
+#include "depth/consistent.hpp"
 #include "depth/normals.hpp"
-#include "depth/points.hpp"
-#include "depth/surface_trees.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -19,25 +19,26 @@ class Workers;
 
 namespace vox::depth {
 
+// The input of the stage in a step, and its penetrations.
+struct Scene {
+    std::span<const Body> bodies;
+    std::span<const Topology* const> topologies;
+    std::span<const Hit> hits;
+    Penetrations& penetrations;
+    std::span<const std::uint32_t> places{}; // of the penetrations that are found in this step
+
+    const Hit& hit(std::uint32_t place) const { return hits[penetrations.of(place).contact]; }
+    Solid solid(std::uint32_t body) const {
+        return {topologies[body], bodies[body].tets, bodies[body].positions};
+    }
+    Vec3d position(const Hit& hit) const { return bodies[hit.body_a].positions.exact(hit.vertex); }
+    bool needs_search(std::uint32_t place) const;
+};
+
 // Keeps buffers from step to step.
 class Fallback {
 public:
     Fallback(std::pmr::memory_resource* memory, SurfaceTrees& trees);
-
-    struct Scene { // of a step
-        std::span<const Body> bodies;
-        std::span<const Topology* const> topologies;
-        std::span<const Hit> hits;
-        std::span<const std::uint32_t> places; // of the penetrations that are found in this step
-        Penetrations& penetrations;
-
-        const Hit& hit(std::uint32_t place) const;
-        Solid solid(std::uint32_t body) const {
-            return {topologies[body], bodies[body].tets, bodies[body].positions};
-        }
-        Vec3d position(const Hit& hit) const { return bodies[hit.body_a].positions.exact(hit.vertex); }
-        bool needs_search(std::uint32_t place) const;
-    };
 
     // Depth and direction of all points that are ENCLOSED, or CROSSING without an answer, or, where there are
     // more than `budget`, of the first ones by their place; the others become UNKNOWN. A budget of 0 is no

@@ -61,7 +61,7 @@ struct Bounds {
     alignas(32) float bound[tree_width], squared[tree_width];
 };
 
-// Whether a triangle is not farther than `reach`; true where the numbers are not comparable.
+// True if a triangle is not farther than `reach`; true where the numbers are not comparable.
 HWY_INLINE bool MayBeNear(float bound, float squared, float reach) {
     return !(bound > 0 && bound * bound > reach * reach * squared);
 }
@@ -269,7 +269,7 @@ HWY_INLINE void BoxOfLeaf(const TreeLeaf& leaf, TreeNode& node, std::size_t chil
     }
 }
 
-// The same for the box around all children of another node.
+// Makes a child of a node have the box around all children of another node.
 HWY_INLINE void BoxOfNode(const TreeNode& from, TreeNode& node, std::size_t child) {
     const D d;
     for (std::size_t k = 0; k < 3; ++k) {

@@ -33,7 +33,7 @@ struct TreeView {
 
     static constexpr std::uint32_t mixed = ~0u; // as the part that is looked for: all of them
 
-    // Whether a leaf or node has triangles of a part.
+    // True if a leaf or node has triangles of a part.
     bool has(std::uint32_t wanted, std::uint32_t number) const noexcept {
         return wanted == mixed || !part || part[number] == wanted || part[number] == mixed;
     }
@@ -59,7 +59,7 @@ using VisitTriangle = float (*)(void* receiver, std::uint32_t triangle);
 void find_near(const TreeView& tree, std::uint32_t part, const float (&p)[3], float reach,
                VisitTriangle visit, void* receiver);
 
-// The same, the nearest boxes first: slower, but better where the reach that is known is much too long.
+// Visits the nearest boxes first: slower, but better where the known reach is much too long.
 void find_nearest_first(const TreeView& tree, std::uint32_t part, const float (&p)[3], float reach,
                         VisitTriangle visit, void* receiver);
 

@@ -62,8 +62,8 @@ void Normals::prepare(std::span<const std::uint32_t> triangles) {
     }
 }
 
-// Those around the corners of triangles from `first_asked` on. These are anywhere in memory, so each pass
-// prefetches what the next one reads.
+// Lists the rings around the corners of triangles from `first_asked` on. These are anywhere in memory, so
+// each pass prefetches what the next one reads.
 void Normals::list_rings(std::size_t first_asked) {
     const Topology& topology = *solid_.topology;
     for (std::size_t i = first_asked; i < asked_.size(); ++i)
@@ -90,7 +90,7 @@ void Normals::list_rings(std::size_t first_asked) {
         ring_faces_[i] = add_face(ring_faces_[i]);
 }
 
-// Those from `first` on: normals out of the tetrahedra, and their weights in the normals of the corners.
+// Computes faces from `first` on: normals out of the tetrahedra, and their weights at the corners.
 void Normals::compute_faces(std::size_t first) {
     for (; first < faces_.size(); ++first) {
         Face& face = faces_[first];

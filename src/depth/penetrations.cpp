@@ -49,7 +49,7 @@ std::size_t Penetrations::keep_carried(std::span<const Body> bodies, std::span<c
     return count;
 }
 
-// To their places, and makes the others. From the last to the first, as none moves to a place before its own.
+// Moves them to their places, and makes the others, last to first, as none moves to a lower place.
 void Penetrations::spread_carried(std::span<const Body> bodies, std::span<const Hit> hits) noexcept {
     std::size_t place = all_.size(), left = carried_;
     for (std::size_t i = hits.size(); place > 0; --i) {

@@ -21,6 +21,8 @@ struct alignas(32) Depth {
     double direction[3];
 
     Vec3d way_out() const noexcept { return {direction[0], direction[1], direction[2]}; }
+    // True if depth and direction of an ENCLOSED or CROSSING vertex are known.
+    bool has_answer() const noexcept { return depth > 0; }
     void set(double new_depth, const Vec3d& new_direction) noexcept {
         depth = new_depth;
         direction[0] = new_direction.x;
@@ -49,7 +51,7 @@ inline PenetrationSource penetration_source(const Body& a, const Body& b) noexce
     return a.carried && b.carried ? PenetrationSource::carried : PenetrationSource::found;
 }
 
-// Whether hits[i], in the order of make_contacts, is the first of its vertex in its body_b.
+// True if hits[i], in the order of make_contacts, is the first of its vertex in its body_b.
 inline bool is_first_of_vertex(std::span<const Hit> hits, std::size_t i) noexcept {
     return i == 0 || hits[i].vertex != hits[i - 1].vertex || hits[i].body_b != hits[i - 1].body_b ||
            hits[i].body_a != hits[i - 1].body_a;
@@ -68,7 +70,7 @@ public:
     // with nothing known. Throws what the memory throws.
     void begin(std::span<const Body> bodies, std::span<const Hit> hits);
 
-    // What the stage finds, in place: state, depth and direction in double, and the closest triangle.
+    // The stage writes here: state, depth and direction in double, and the closest triangle.
     Penetration& of(std::uint32_t place) noexcept { return all_[place]; }
     Depth& depth_of(std::uint32_t place) noexcept { return depths_[place]; }
     std::uint32_t& closest_of(std::uint32_t place) noexcept { return closest_[place]; }

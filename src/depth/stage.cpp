@@ -1,6 +1,5 @@
 #include "depth/stage.hpp"
 
-#include "base/array.hpp"
 #include "base/parallel.hpp"
 #include "base/room.hpp"
 
@@ -14,19 +13,16 @@ using namespace depth;
 DepthStage::DepthStage(std::pmr::memory_resource* memory, SurfaceTrees& trees)
     : places_(memory), pairs_(memory), queue_(memory), workers_(memory), fallback_(memory, trees) {}
 
-Solid DepthStage::Scene::solid(std::uint32_t body) const {
-    return {topologies[body], bodies[body].tets, bodies[body].positions};
-}
-
 void DepthStage::find(std::span<const Body> bodies, std::span<const Topology* const> topologies,
                       std::span<const Hit> hits, bool closest, std::uint64_t closest_budget, Workers* workers,
                       Penetrations& penetrations, Counters& counters) {
     const bool none = std::ranges::all_of(bodies, [](const Body& b) { return b.sensor; });
     if (hits.empty() || none) return penetrations.clear();
-    const Scene scene{bodies, topologies, hits, penetrations};
+    Scene scene{bodies, topologies, hits, penetrations};
     reserve(hits.size());
     penetrations.begin(bodies, hits);
     list_places(scene);
+    scene.places = places_;
     workers_.grow(workers ? workers->count() : 1);
     for (Worker& worker : workers_) worker.counts = {};
     // The number of points that is worth a task.
@@ -39,8 +35,7 @@ void DepthStage::find(std::span<const Body> bodies, std::span<const Topology* co
                    find_pairs);
     // With `closest` all are as begin() left them, and the fallback finds them.
     Counts fallback_counts;
-    const auto [searches, unknown] = fallback_.find({bodies, topologies, hits, places_, penetrations},
-                                                    closest_budget, workers, fallback_counts);
+    const auto [searches, unknown] = fallback_.find(scene, closest_budget, workers, fallback_counts);
 
     workers_.level();
 
@@ -63,9 +58,7 @@ void DepthStage::list_places(const Scene& scene) {
     places_.clear();
     pairs_.clear();
     const std::span<const Hit> hits = scene.hits;
-    const auto body_b = [&](std::uint32_t place) {
-        return hits[scene.penetrations.of(place).contact].body_b;
-    };
+    const auto body_b = [&](std::uint32_t place) { return scene.hit(place).body_b; };
     std::uint32_t place = 0;
     for (std::size_t first = 0, last; first < hits.size(); first = last) {
         const std::size_t listed = places_.size();
@@ -97,7 +90,7 @@ void DepthStage::list_places(const Scene& scene) {
 
 void DepthStage::find_consistent(const Scene& scene, std::size_t i, Worker& worker) {
     const std::size_t first = pairs_[i], last = i + 1 < pairs_.size() ? pairs_[i + 1] : places_.size();
-    const Hit& hit = scene.hits[scene.penetrations.of(places_[first]).contact];
+    const Hit& hit = scene.hit(places_[first]);
     const Body& a = scene.bodies[hit.body_a];
     const BodyPair pair{scene.topologies[hit.body_a],
                         a.positions,

@@ -9,7 +9,6 @@
 #include "depth/consistent.hpp"
 #include "depth/fallback.hpp"
 #include "depth/penetrations.hpp"
-#include "depth/points.hpp"
 #include "mesh/topology.hpp"
 
 #include <vox/vox.h>
@@ -54,20 +53,11 @@ private:
 
         auto buffers() { return consistent.buffers(); }
     };
-    struct Scene {
-        std::span<const Body> bodies;
-        std::span<const Topology* const> topologies;
-        std::span<const Hit> hits;
-        Penetrations& penetrations;
+    void list_places(const depth::Scene& scene);
+    void find_consistent(const depth::Scene& scene, std::size_t pair, Worker& worker);
 
-        depth::Solid solid(std::uint32_t body) const;
-    };
-
-    void list_places(const Scene& scene);
-    void find_consistent(const Scene& scene, std::size_t pair, Worker& worker);
-
-    // Of the penetrations that are found, pair after pair, each in the order of vertices; and in these lists
-    // the first of each pair.
+    // The places of penetrations to find, pair after pair, each in the order of vertices; and the first of
+    // each pair in this list.
     Array<std::uint32_t> places_, pairs_;
     Array<std::uint32_t> queue_; // for find_consistent_depths(), as long
     PerWorker<Worker> workers_;

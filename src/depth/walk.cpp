@@ -55,7 +55,7 @@ private:
 // Twice the area of the triangle (origin, a, b); the negative of area(b, a), exactly.
 double area(const Corner& a, const Corner& b) { return a.x * b.y - b.x * a.y; }
 
-// Whether the origin is to the left of a -> b. An origin on the edge counts as if it were moved by (e, e^2)
+// True if the origin is to the left of a -> b. An origin on the edge counts as if it were moved by (e, e^2)
 // for a small e (Edelsbrunner, Muecke, "Simulation of simplicity", ACM Transactions on Graphics 9, 1990), so
 // that the answers for all edges still belong to one line.
 bool left(const Corner& a, const Corner& b) {
@@ -150,7 +150,7 @@ bool cross_surface(const Gate& gate, const Vec3d& p, const Vec3d& q, const Trian
 // walks side by side wait together.
 class Steps {
 public:
-    // Whether there is a first tetrahedron to leave.
+    // True if there is a first tetrahedron to leave.
     bool begin(const Solid& solid, Walk& walk) {
         walk_ = &walk;
         walk.leaves = false;
@@ -214,7 +214,7 @@ public:
     }
 
 private:
-    // Without values before begin(), as there are many.
+    // They have no values before begin(), as there are many.
     Walk* walk_;
     Frame frame_;
     Gate gate_;

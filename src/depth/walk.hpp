@@ -18,6 +18,10 @@ struct Solid {
     Vec3d at(std::uint32_t vertex) const noexcept { return positions.exact(vertex); }
 };
 
+inline bool has_corner(const Triangle& triangle, std::uint32_t vertex) noexcept {
+    return triangle.v[0] == vertex || triangle.v[1] == vertex || triangle.v[2] == vertex;
+}
+
 // A point of a triangle of a surface.
 struct SurfacePoint {
     std::uint32_t triangle;
@@ -29,7 +33,7 @@ struct Walk {
     // The segment, and the closed tetrahedron in which it begins.
     Vec3d p, q;
     std::uint32_t tet;
-    // Whether the segment leaves the mesh between p and q, and not by a facet where three or more tetrahedra
+    // True if the segment leaves the mesh between p and q, and not by a facet where three or more tetrahedra
     // meet; how many tetrahedra are on its way; and where it leaves, if it does.
     bool leaves;
     std::uint64_t visited;

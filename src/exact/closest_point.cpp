@@ -16,10 +16,6 @@ double closest_on_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) noexce
     return length > 0 ? std::clamp(dot(p - a, ab) / length, 0.0, 1.0) : 0;
 }
 
-double largest_coordinate(const Vec3d& v) noexcept {
-    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
-
 // The power of two by which to enlarge a triangle and the distance to p, so that its area does not underflow;
 // as far as p allows. 0 if the triangle is not that small.
 int enlargement(const Vec3d& ap, const Vec3d& ab, const Vec3d& ac) noexcept {
@@ -27,10 +23,6 @@ int enlargement(const Vec3d& ap, const Vec3d& ab, const Vec3d& ac) noexcept {
                  reach = largest_coordinate(ap);
     if (!(size > 0 && size < 0x1p-200)) return 0;
     return std::max(0, std::min(-std::ilogb(size), reach > 0 ? 300 - std::ilogb(reach) : 2000));
-}
-
-Vec3d enlarged(const Vec3d& v, int powers) noexcept {
-    return {std::ldexp(v.x, powers), std::ldexp(v.y, powers), std::ldexp(v.z, powers)};
 }
 
 } // namespace
@@ -60,8 +52,8 @@ ClosestPoint closest_on_triangle(const Vec3d& p, const Vec3d& a, const Vec3d& b,
                         {weight[0], weight[1], weight[2]}};
         }
     } else if (const int powers = enlargement(p - a, b - a, c - a); powers > 0) {
-        ClosestPoint found = closest_on_triangle(enlarged(p - a, powers), {0, 0, 0}, enlarged(b - a, powers),
-                                                 enlarged(c - a, powers));
+        ClosestPoint found = closest_on_triangle(times_power(p - a, powers), {0, 0, 0},
+                                                 times_power(b - a, powers), times_power(c - a, powers));
         found.squared_distance = std::ldexp(found.squared_distance, -2 * powers);
         return found;
     }

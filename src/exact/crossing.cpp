@@ -99,7 +99,7 @@ private:
         return found;
     }
 
-    // Whether the triangle contains p, a point of its plane. `winding` is the sign of its projected area.
+    // True if the triangle contains p, a point of its plane. `winding` is the sign of its projected area.
     bool holds(const Vec3d& p, int axis, int winding, std::array<double, 3>& weights) {
         const auto& [a, b, c] = corner_;
         const int sign[3] = {area(axis, p, b, c), area(axis, a, p, c), area(axis, a, b, p)};
@@ -111,7 +111,7 @@ private:
         return true;
     }
 
-    // Whether x, which may be anywhere, is on the closed segment rs. Sets its weights.
+    // True if x, which may be anywhere, is on the closed segment rs. Sets its weights.
     bool is_on(const Vec3d& x, const Vec3d& r, const Vec3d& s, std::array<double, 2>& weights) {
         const double at[3] = {x.x, x.y, x.z}, from[3] = {r.x, r.y, r.z}, to[3] = {s.x, s.y, s.z};
         int longest = 0;
@@ -130,7 +130,7 @@ private:
         return true;
     }
 
-    // Whether the segment meets the segment rs. Sets the edge's weights and the position, and the weights of
+    // True if the segment meets the segment rs. Sets the edge's weights and the position, and the weights of
     // r and s.
     bool meets(const Vec3d& r, const Vec3d& s, Crossing& found, std::array<double, 2>& side) {
         const auto& [p, q] = end_;

@@ -27,7 +27,7 @@ struct Crossing {
     Vec3d position; // rounded; at an end of the segment or a corner exactly that
 };
 
-// Whether the line pq certainly has no point in common with the triangle abc: two of the volumes over its
+// True if the line pq certainly has no point in common with the triangle abc: two of the volumes over its
 // sides have opposite signs, which a line through the triangle excludes. Computed in doubles.
 inline bool passes_beside(const Vec3d& p, const Vec3d& q, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
     const Vec3d d = q - p, u = a - p, v = b - p, w = c - p;

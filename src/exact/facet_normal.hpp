@@ -4,8 +4,6 @@
 #include "base/vectors.hpp"
 #include "exact/predicates.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <utility>
 
@@ -13,7 +11,7 @@ namespace vox {
 
 // `v` divided by its largest coordinate, so that products neither vanish nor overflow.
 inline Vec3d scaled(const Vec3d& v) noexcept {
-    const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    const double largest = largest_coordinate(v);
     return largest > 0 ? Vec3d{v.x / largest, v.y / largest, v.z / largest} : v;
 }
 

@@ -42,10 +42,6 @@ CornerPositions corners_at(const SeenMotion& motion, double time) noexcept {
     return corners;
 }
 
-double most_of_coordinates(const Vec3d& v) noexcept {
-    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
-
 bool stays_on_one_side(const CornerPositions& begin, const CornerPositions& end) noexcept {
     const Vec3d *a = begin.at, *b = end.at;
     const double first = determinant(a[0], a[1], a[2]);
@@ -62,13 +58,13 @@ bool stays_on_one_side(const CornerPositions& begin, const CornerPositions& end)
 }
 
 bool is_separated(const CornerPositions& begin, const CornerPositions& end, const Vec3d& axis) noexcept {
-    const double error = dot_error * most_of_coordinates(axis);
+    const double error = dot_error * largest_coordinate(axis);
     for (int i = 0; i < 3; ++i)
         if (!(dot(begin.at[i], axis) > error) || !(dot(end.at[i], axis) > error)) return false;
     return true;
 }
 
-// Whether the two certainly do not meet during an interval.
+// True if the two certainly do not meet during an interval.
 bool stay_apart(const SeenMotion& motion, double begin_time, double end_time) noexcept {
     const CornerPositions begin = corners_at(motion, begin_time), end = corners_at(motion, end_time);
     if (stays_on_one_side(begin, end)) return true;
@@ -86,16 +82,13 @@ bool stay_apart(const SeenMotion& motion, double begin_time, double end_time) no
 double meeting_time(const SeenMotion& given, double latest) noexcept {
     double largest = 0;
     for (int i = 0; i < 3; ++i)
-        largest = std::max({largest, most_of_coordinates(given.from[i]), most_of_coordinates(given.to[i])});
+        largest = std::max({largest, largest_coordinate(given.from[i]), largest_coordinate(given.to[i])});
     if (!(largest > 0)) return 0;
     SeenMotion motion;
     const int power = -1 - std::ilogb(largest);
-    const auto scaled = [power](const Vec3d& v) {
-        return Vec3d{std::ldexp(v.x, power), std::ldexp(v.y, power), std::ldexp(v.z, power)};
-    };
     for (int i = 0; i < 3; ++i) {
-        motion.from[i] = scaled(given.from[i]);
-        motion.to[i] = scaled(given.to[i]);
+        motion.from[i] = times_power(given.from[i], power);
+        motion.to[i] = times_power(given.to[i], power);
     }
     // The intervals are those of a binary tree, in their order in time.
     struct Interval {

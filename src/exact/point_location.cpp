@@ -4,9 +4,7 @@
 
 #include "base/simd.hpp"
 #include "base/vectors.hpp"
-#include "exact/predicates.hpp"
 
-#include <array>
 #include <bit>
 
 #undef VOX_SOURCE

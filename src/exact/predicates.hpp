@@ -88,7 +88,7 @@ struct TrianglePlane {
         const Minor minus_y{-y.value, y.magnitude};
         return determinant(w.x, x, w.y, minus_y, w.z, z);
     }
-    // Whether p and q are certainly on the same side, and not on the plane.
+    // True if p and q are certainly on the same side, and not on the plane.
     bool has_on_one_side(const Vec3d& p, const Vec3d& q) const {
         const BoundedVolume of_p = volume(p), of_q = volume(q);
         return (of_p.volume > of_p.error && of_q.volume > of_q.error) ||

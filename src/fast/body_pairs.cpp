@@ -1,14 +1,14 @@
-// Where that takes few tests, a sweep along one axis (Baraff, Dynamic simulation of non-penetrating rigid
-// bodies, 1992; Cohen et al., I-COLLIDE, 1995): the boxes sorted by where they begin, each tested against
-// those that begin before it ends. The axis is the one along which the boxes' centres vary most.
+// A sweep along one axis finds the pairs where that takes few tests (Baraff, Dynamic simulation of
+// non-penetrating rigid bodies, 1992; Cohen et al., I-COLLIDE, 1995): the boxes are sorted by where they
+// begin, each is tested against those that begin before it ends. Along that axis the boxes' centres vary
+// most.
 //
-// Else, as for a scaffold of rods, a streamed segment tree, whose time does not depend on where the boxes are
-// (A. Zomorodian, H. Edelsbrunner, Fast software for box intersections, Int. J. Comput. Geom. Appl. 12, 2002,
-// Sect. 3). Classes of bodies that the filters treat alike are joined, two at a time, so that it never meets
-// pairs that filters exclude, as in a pile of bodies of one negative group.
+// Else a streamed segment tree does, as for a scaffold of rods: its time does not depend on where the boxes
+// are (A. Zomorodian, H. Edelsbrunner, Fast software for box intersections, Int. J. Comput. Geom. Appl. 12,
+// 2002, Sect. 3). It joins classes of bodies that the filters treat alike, two at a time, so that it never
+// meets pairs that filters exclude, as in a pile of bodies of one negative group.
 #include "fast/body_pairs.hpp"
 
-#include "base/array.hpp"
 #include "mesh/filter.hpp"
 
 #include <algorithm>
@@ -62,7 +62,7 @@ void sort_by(std::uint32_t Pair::*key, std::size_t indices, std::span<const Pair
     for (const Pair& pair : from) to[first[pair.*key]++] = pair;
 }
 
-// Whether a pair of bodies is wanted; PairRules says when.
+// True if a pair of bodies is wanted; PairRules says when.
 bool is_wanted(const Body& a, bool a_moved, const Body& b, bool b_moved) {
     return (a_moved || b_moved) && !(a.tets.empty() && b.tets.empty()) && collide(a, b);
 }
@@ -134,7 +134,7 @@ void sweep(std::span<const Box> sorted, std::span<const std::uint32_t> order, in
 
 // ---- the join ---------------------------------------------------------------------------------------
 
-// Of the sorted boxes. Their last axis is the given one.
+// Ranks the sorted boxes. Their last axis is the given one.
 void rank_boxes(int axis_of_last, PairBuffers& buffers) {
     const auto count = static_cast<std::uint32_t>(buffers.order.size());
     buffers.ranked.resize(count);

@@ -240,7 +240,7 @@ void index_regions(std::size_t body_count, BroadPhase& out) {
         out.by_b[out.first_of_b[out.regions[r].b + 1]++] = r;
 }
 
-// Whether the super-tiles of a body only matter where others reach it.
+// True if the super-tiles of a body only matter where others reach it.
 bool uses_block_sides(const Step& step, const BroadPhase& broad, std::uint32_t body) {
     return broad.is_reached(body) && !step.bodies[body].self_collision;
 }

@@ -7,7 +7,7 @@
 #include "base/boxes.hpp"
 #include "fast/body_pairs.hpp"
 #include "fast/step.hpp"
-#include "mesh/tile_sides.hpp"
+#include "mesh/tiles.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -26,8 +26,7 @@ unsigned common_sides(const Box* boxes, std::span<const std::uint32_t> which, co
 inline constexpr std::uint32_t most_boxes = 64;
 std::uint64_t find_overlaps(const Box* boxes, std::uint32_t count, const Box& region);
 
-// The same for blocks, with the boxes of their groups (StepBoxes): `count` blocks from the begin of a group
-// on.
+// find_overlaps() for `count` blocks from the begin of a group on, with the boxes of the groups.
 std::uint64_t find_blocks(const Box* blocks, const Box* groups, std::uint32_t count, const Box& region);
 
 // A box that holds every vertex of body a that is in a tet of body b. It is the intersection of the boxes of
@@ -37,7 +36,7 @@ std::uint64_t find_blocks(const Box* blocks, const Box* groups, std::uint32_t co
 struct PairRegion {
     std::uint32_t a, b;
     Box region;
-    // Of those tiles, one for all of a super-tile inside: they will look into the windows of a.
+    // The size of those tiles, which will look into the windows of a; one counts for a super-tile inside.
     TileSize tile_size;
 };
 
@@ -60,7 +59,7 @@ struct BroadPhase {
     }
     bool is_reached(std::uint32_t b) const noexcept { return first_of_b[b] != first_of_b[b + 1]; }
 
-    // Of each body, around the regions in which others reach it, as they were before tiles made them smaller.
+    // For each body, the box around the regions in which others reach it, before tiles made them smaller.
     Array<Box> reached;
     Array<std::uint8_t> block_sides; // sides_of() each block, seen from there
 

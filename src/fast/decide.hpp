@@ -17,14 +17,14 @@ struct SelfFilter;
 
 namespace vox::fast {
 
-// What all workers add to.
+// All workers add to this.
 struct Decided {
     Array<Hit>& hits;
     Array<std::uint64_t>& degenerate; // body << 32 | tet, some more than once
     std::mutex mutex{};
 };
 
-// What a worker did in a step.
+// Counts of one worker in a step.
 struct DecideCounts {
     std::uint64_t exact_tests = 0, filtered = 0, ns = 0;
 };

@@ -2,7 +2,6 @@
 // bodies at a time, each with results of its own.
 #include "fast/engine.hpp"
 
-#include "base/array.hpp"
 #include "base/clock.hpp"
 
 #include <algorithm>

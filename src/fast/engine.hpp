@@ -51,18 +51,18 @@ public:
     void detect(std::span<const Body> bodies, std::span<const fast::PreparedBody> prepared,
                 const FastSettings& settings, Array<Hit>& hits, Counters& counters, Profile& profile);
 
-    // What the last step found, for the cost model: good until the next one, pointers and spans of the Step
-    // excepted, which are no longer valid.
+    // The cost model reads what the last step found, until the next one; pointers and spans of the Step are
+    // no longer valid.
     const fast::Step& last_step() const noexcept { return step_; }
     const fast::StepBoxes& boxes() const noexcept { return boxes_; }
     const fast::BroadPhase& broad_phase() const noexcept { return broad_phase_; }
     const fast::Windows& windows() const noexcept { return windows_; }
 
-    // Whether a body moved before the last step, as far as FastSettings::carry lets the engine know. Bodies
+    // True if a body moved before the last step, as far as FastSettings::carry lets the engine know. Bodies
     // added since count as moved.
     bool moved(std::size_t body) const noexcept { return body >= step_.of.size() || step_.of[body].moved; }
 
-    // Whether winding numbers excluded most of the self-collision of a body in the last step: what is left of
+    // True if winding numbers excluded most of the self-collision of a body in the last step: what is left of
     // it costs next to nothing. The body has so many vertices.
     bool cleared(std::size_t body, std::uint32_t vertices) const noexcept;
 

@@ -11,7 +11,7 @@
 
 namespace vox::fast {
 
-// What is kept of a body from step to step. Its vertices are cut into parts, the same ones in each step.
+// A body's positions in the last step. Its vertices are cut into parts, the same ones in each step.
 struct LastPositions {
     explicit LastPositions(std::pmr::memory_resource* memory) noexcept
         : positions(memory), exact(memory), parts(memory) {}
@@ -29,7 +29,7 @@ struct LastPositions {
     Array<Part> parts;
 };
 
-// Whether the caller's positions are an array of packed, aligned floats.
+// True if the caller's positions are an array of packed, aligned floats.
 inline bool is_packed(const Positions& positions) noexcept {
     return !positions.rounded() && positions.byte_stride == sizeof(Vec3f) && positions.component_gap == 0 &&
            reinterpret_cast<std::uintptr_t>(positions.data) % alignof(float) == 0;
@@ -46,7 +46,7 @@ bool copy_strided(LastPositions& rest, std::size_t part, const Positions& positi
 bool compare_packed(LastPositions& rest, std::size_t part, const float* positions, std::uint32_t first,
                     std::uint32_t last, const Box& box) noexcept;
 
-// The same for positions that were rounded into rest.positions.
+// Compares positions that were rounded into rest.positions.
 bool compare_exact(LastPositions& rest, std::size_t part, const Positions& positions, std::uint32_t first,
                    std::uint32_t last, const Box& box) noexcept;
 

@@ -3,7 +3,6 @@
 // in its quantised box); tests each point against the 64 boxes of the tets at once; and decides the pairs
 // that are left in single precision (narrow-inl.hpp).
 #include "fast/lookup.hpp"
-#include "base/array.hpp"
 #include "base/prefetch.hpp"
 #include "base/simd.hpp"
 
@@ -80,8 +79,7 @@ HWY_INLINE void FindOwners(const Tiles& tiles, const Tile& tile, std::uint64_t* 
         return;
     }
     for (std::uint32_t i = 0; i < tile.vertex_count; ++i) own[i] = 0;
-    const std::uint8_t* corners =
-        tiles.corners.data() + static_cast<std::size_t>(&tile - tiles.tiles.data()) * 4 * tile_size;
+    const std::uint8_t* corners = tiles.corners_of(static_cast<std::size_t>(&tile - tiles.tiles.data()));
     for (std::uint32_t c = 0; c < 4; ++c)
         for (std::uint32_t i = 0; i < tile.tet_count; ++i)
             own[corners[c * tile_size + i]] |= std::uint64_t{1} << i;
@@ -101,13 +99,10 @@ struct TileWork {
     FilterConstants constants;
 
     void narrow(const TetNames& tets, std::uint32_t count) {
-        const bool few = tile.vertex_count <= few_vertices;
         if (body.rounded)
-            few ? Narrow<true, FewCorners>(tets, s, count, constants, out)
-                : Narrow<true, ManyCorners>(tets, s, count, constants, out);
+            Narrow<true>(tets, s, count, constants, out);
         else
-            few ? Narrow<false, FewCorners>(tets, s, count, constants, out)
-                : Narrow<false, ManyCorners>(tets, s, count, constants, out);
+            Narrow<false>(tets, s, count, constants, out);
     }
 };
 
@@ -119,8 +114,8 @@ HWY_NOINLINE void Process(TileWork& w, std::uint32_t count, std::uint32_t own_co
         if (!w.loaded) LoadTile<false>(*w.body.tiles, w.body.positions, tile, s, w.box);
         for (int a = 0; a < 3; ++a) w.scales[a] = MakeScale(w.box.lo[a], w.box.hi[a]);
         const std::size_t index = static_cast<std::size_t>(&tile - w.body.tiles->tiles.data());
-        QuantiseTile(w.body.tiles->corners.data() + index * 4 * tile_size, w.scales, tile.vertex_count, s);
-        ManyCorners::Prepare(s, tile.vertex_count);
+        QuantiseTile(w.body.tiles->corners_of(index), w.scales, tile.vertex_count, s);
+        Corners::Prepare(s, tile.vertex_count);
         w.constants = MakeConstants(w.box, w.body.rounded);
         w.ready = true;
     }
@@ -274,18 +269,17 @@ HWY_INLINE void PrefetchRange(const void* from, std::size_t bytes) {
     for (std::size_t i = 0; i < bytes; i += 64) prefetch(line + i);
 }
 
-// What is read of the tile when it has candidates arrives in the cache while those are fetched.
+// Fetches what a tile with candidates reads into the cache, while the candidates are found.
 HWY_INLINE void PrefetchTile(const Tiles& tiles, const Tile& tile, bool own) {
     const auto index = static_cast<std::size_t>(&tile - tiles.tiles.data());
     PrefetchRange(tiles.vertices.data() + tile.first_vertex, tile.vertex_count * sizeof(std::uint32_t));
-    PrefetchRange(tiles.corners.data() + index * 4 * tile_size, 4 * tile_size);
+    PrefetchRange(tiles.corners_of(index), 4 * tile_size);
     PrefetchRange(tiles.tets.data() + tile.first_tet, tile.tet_count * sizeof(std::uint32_t));
     if (own && !tiles.own.empty())
         PrefetchRange(tiles.own.data() + tile.first_vertex, tile.vertex_count * sizeof(std::uint64_t));
 }
 
-// Of a window with few points, the tiles of a super-tile together read nearly all: 8 KiB of coordinates and
-// indices at most.
+// The tiles of a super-tile together read nearly all of a window with few points: 8 KiB at most.
 HWY_INLINE void PrefetchWindow(const Window& window) {
     constexpr std::uint32_t few = 512;
     if (window.count > few) return;

@@ -1,4 +1,4 @@
-// What the fast engine keeps of a mesh from step to step, beside what the mesh keeps of itself.
+// The fast engine's state of a mesh, kept from step to step.
 #pragma once
 
 #include "fast/last_positions.hpp"
@@ -34,7 +34,7 @@ private:
     std::uint64_t changes_ = 0; // TilePlaces::changes then
 };
 
-// What a step works on for a body: the tiles and the boundary of its mesh are only read.
+// A body as a step gets it: the tiles and the boundary of its mesh are only read.
 struct PreparedBody {
     const Tiles* tiles;
     const Boundary* boundary;

@@ -54,7 +54,6 @@ namespace HWY_NAMESPACE {
 // The coordinates of the corners of some tets, one tet in each lane.
 #if HWY_TARGET == HWY_AVX3
 // In tables of floats in registers.
-template <class TableOf>
 class Corners {
 public:
     struct Tets {
@@ -63,7 +62,7 @@ public:
 
     static void Prepare(LookupScratch&, std::uint32_t) {} // once the tile's vertices are in scratch
     explicit Corners(const LookupScratch& s)
-        : table_{TableOf(s.x), TableOf(s.y), TableOf(s.z)}, corners_(s.corners) {}
+        : table_{Table(s.x), Table(s.y), Table(s.z)}, corners_(s.corners) {}
     HWY_INLINE Tets operator[](const std::uint32_t* pairs) const {
         return {corners_(hn::And(hn::LoadU(Words(), pairs), hn::Set(Words(), 63)))};
     }
@@ -74,11 +73,9 @@ public:
     }
 
 private:
-    TableOf table_[3];
+    Table table_[3];
     WordTable corners_;
 };
-using FewCorners = Corners<SmallTable>; // of at most few_vertices
-using ManyCorners = Corners<Table>;
 #else
 // Loaded vertex by vertex and transposed. With AVX2, a scene in half overlap takes 0.89 of the time that it
 // took with permutations of tables in registers.
@@ -115,8 +112,6 @@ private:
     const float* xyz_;
     const std::uint8_t* corners_;
 };
-using FewCorners = Corners;
-using ManyCorners = Corners;
 #endif
 
 using vox::HWY_NAMESPACE::Compressor, vox::HWY_NAMESPACE::LaneIndices, vox::HWY_NAMESPACE::LanesOfMask,
@@ -131,13 +126,13 @@ struct TetNames {
 };
 
 // Decides `count` pairs.
-template <bool kRounded, class CornersOf>
+template <bool kRounded>
 HWY_NOINLINE void Narrow(const TetNames& tets, LookupScratch& s, std::uint32_t count,
                          const FilterConstants& constants, Findings& out) {
     const Floats d;
     const Words du;
     const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
-    const CornersOf corners(s);
+    const Corners corners(s);
     const float* candidates[3] = {s.candidate_x, s.candidate_y, s.candidate_z};
     for (std::uint32_t i = 0; i < lanes; ++i) s.pairs[count + i] = s.pairs[count - 1]; // whole registers
     std::uint32_t kept_count = 0;
@@ -149,10 +144,10 @@ HWY_NOINLINE void Narrow(const TetNames& tets, LookupScratch& s, std::uint32_t c
         const LaneIndices<Floats> candidate(hn::Sub(hn::ShiftRight<6>(pair), hn::Set(du, first)));
         const auto tets_of = corners[s.pairs + i];
         V va[3], vb[3], vc[3], vd[3];
-        corners.template Load<0>(tets_of, va);
-        corners.template Load<1>(tets_of, vb);
-        corners.template Load<2>(tets_of, vc);
-        corners.template Load<3>(tets_of, vd);
+        corners.Load<0>(tets_of, va);
+        corners.Load<1>(tets_of, vb);
+        corners.Load<2>(tets_of, vc);
+        corners.Load<3>(tets_of, vd);
         V e1[3], e2[3], e3[3], q[3], side[3], volume = hn::Set(d, 256 * 0x1p-24f);
         auto inside = hn::FirstN(d, count - i);
         for (int a = 0; a < 3; ++a) {

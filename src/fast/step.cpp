@@ -1,7 +1,7 @@
 #include "fast/step.hpp"
-#include "base/array.hpp"
 
-#include <cmath>
+#include "base/vectors.hpp"
+
 #include <limits>
 
 namespace vox::fast {
@@ -13,27 +13,18 @@ namespace {
 // speed.
 Vec3d choose_origin(std::span<const Body> bodies) {
     constexpr std::uint32_t samples = 8;
-    constexpr double far = 256; // sizes away
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    double lo[3] = {infinity, infinity, infinity}, hi[3] = {-infinity, -infinity, -infinity};
+    constexpr double far = 256, infinity = std::numeric_limits<double>::infinity();
+    Vec3d lo{infinity, infinity, infinity}, hi{-infinity, -infinity, -infinity};
     for (const Body& body : bodies) {
         if (!body.positions.rounded()) continue;
         const std::uint32_t count = std::min(samples, body.vertex_count);
         for (std::uint32_t i = 0; i < count; ++i) {
             const Vec3d p = body.positions.exact(std::uint64_t{i} * body.vertex_count / count);
-            const double x[3] = {p.x, p.y, p.z};
-            for (int a = 0; a < 3; ++a) {
-                lo[a] = std::min(lo[a], x[a]);
-                hi[a] = std::max(hi[a], x[a]);
-            }
+            lo = min(lo, p);
+            hi = max(hi, p);
         }
     }
-    double origin[3] = {};
-    for (int a = 0; a < 3; ++a) {
-        const double middle = lo[a] / 2 + hi[a] / 2;
-        if (std::abs(middle) > far * (hi[a] - lo[a]) && std::isfinite(middle)) origin[a] = middle;
-    }
-    return {origin[0], origin[1], origin[2]};
+    return far_middle(lo, hi, far); // zero where there is no finite one
 }
 
 void add_pieces(std::uint32_t body, std::uint32_t count, std::uint32_t most, Array<Piece>& pieces) {

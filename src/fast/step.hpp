@@ -34,7 +34,7 @@ inline constexpr std::uint32_t piece_super_tiles = 8; // at most
 inline constexpr std::uint32_t group_blocks = 16;
 static_assert(piece_blocks % group_blocks == 0);
 
-// What a step knows of one of its bodies, beside the Body itself.
+// One body of a step, beside the Body itself.
 struct StepBody {
     // Set by who begins the step.
     const Tiles* tiles;

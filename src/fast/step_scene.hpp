@@ -24,7 +24,7 @@ namespace vox {
 struct Topology;
 class Workers;
 
-// What the features of a surface are made from; each number grows with every change (Mesh).
+// Numbers that grow with every change of a mesh: its features are made again then.
 struct SurfaceVersion {
     std::uint32_t topology, tiles;
 

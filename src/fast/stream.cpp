@@ -39,7 +39,7 @@ HWY_BEFORE_NAMESPACE();
 namespace vox::fast {
 namespace HWY_NAMESPACE {
 
-// Whether all of `values` are finite: without the sign, their bits are below those of infinity.
+// True if all of `values` are finite: without the sign, their bits are below those of infinity.
 HWY_INLINE bool AllFinite(const float* HWY_RESTRICT values, std::size_t count) {
     const hn::CappedTag<std::uint32_t, 16> du;
     const hn::RebindToFloat<decltype(du)> df;

@@ -1,4 +1,4 @@
-// What the stages that work on whole tiles share: loading their vertices into registers, and determinants.
+// Shared by stages that work on whole tiles: loading their vertices into registers, and determinants.
 // Included once for each SIMD target, after hwy/highway.h.
 #if defined(VOX_FAST_TILE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef VOX_FAST_TILE_INL
@@ -27,7 +27,7 @@ HWY_INLINE hn::Vec<Four> LoadVertex(const float* positions, std::uint32_t v) {
     return hn::LoadU(Four(), positions + std::size_t{v} * 3);
 }
 
-// The same for the last vertex, without reading past it.
+// Loads the last vertex without reading past it.
 HWY_INLINE hn::Vec<Four> LoadLastVertex(const float* positions, std::uint32_t v) {
     const float* p = positions + std::size_t{v} * 3;
     alignas(16) const float copy[4] = {p[0], p[1], p[2], 0};
@@ -118,41 +118,27 @@ HWY_INLINE void LoadTile(const Tiles& tiles, const float* positions, const Tile&
         LoadTile<kBox>(positions, vertices, padded, LoadVertex, s, box);
 }
 
-// A table of 64 floats, or of 48, looked up by lane: by indices below that.
+// A table of 64 floats, looked up by lane.
 #if HWY_TARGET == HWY_AVX3
-template <int kParts>
-struct PartedTable {
-    __m512 part[kParts];
-    explicit PartedTable(const float* values) {
-        for (int i = 0; i < kParts; ++i) part[i] = _mm512_load_ps(values + 16 * i);
+struct Table {
+    __m512 part[4];
+    explicit Table(const float* values) {
+        for (int i = 0; i < 4; ++i) part[i] = _mm512_load_ps(values + 16 * i);
     }
     HWY_INLINE hn::Vec<Floats> operator()(hn::Vec<Words> index) const {
-        const __m512 low = _mm512_permutex2var_ps(part[0], index.raw, part[1]);
         const __mmask16 upper = _mm512_test_epi32_mask(index.raw, _mm512_set1_epi32(32));
-        if constexpr (kParts == 3)
-            return hn::Vec<Floats>{_mm512_mask_permutexvar_ps(low, upper, index.raw, part[2])};
-        else
-            return hn::Vec<Floats>{
-                _mm512_mask_blend_ps(upper, low, _mm512_permutex2var_ps(part[2], index.raw, part[3]))};
+        return hn::Vec<Floats>{_mm512_mask_blend_ps(upper,
+                                                    _mm512_permutex2var_ps(part[0], index.raw, part[1]),
+                                                    _mm512_permutex2var_ps(part[2], index.raw, part[3]))};
     }
 };
-using Table = PartedTable<4>;
-using SmallTable = PartedTable<3>;
 
-// As Table, of words.
+// A table of words.
 struct WordTable {
     Table floats;
     explicit WordTable(const std::uint32_t* values) : floats(reinterpret_cast<const float*>(values)) {}
     HWY_INLINE hn::Vec<Words> operator()(hn::Vec<Words> index) const {
         return hn::BitCast(Words(), floats(index));
-    }
-};
-#else
-struct Table {
-    const float* values;
-    explicit Table(const float* from) : values(from) {}
-    HWY_INLINE hn::Vec<Floats> operator()(hn::Vec<Words> index) const {
-        return hn::GatherIndex(Floats(), values, hn::BitCast(hn::RebindToSigned<Floats>(), index));
     }
 };
 #endif

@@ -4,7 +4,6 @@
 #include "fast/window.hpp"
 #include "base/simd.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -171,7 +170,7 @@ constexpr std::uint32_t few_points = 128;
 // Points looked at to judge a window of at least four times as many.
 constexpr std::uint32_t most_samples = 256;
 
-// Whether the cells of the lattice are much larger than wanted.
+// True if the cells of the lattice are much larger than wanted.
 bool is_coarse(const WindowLattice& lattice, double cell_size) {
     return double{lattice.inverse} * cell_size < 0.5;
 }
@@ -209,7 +208,7 @@ Box bounds(const Points& points, Range range) {
     return box;
 }
 
-// Whether far too many of some sampled points share a cell: then it is not worth binning all of them to know.
+// True if far too many of some sampled points share a cell: then it is not worth binning all of them to know.
 bool looks_crowded(const Points& points, Range range, const WindowLattice& lattice) {
     if (range.count < 4 * most_samples) return false;
     std::array<std::size_t, most_samples> cell;
@@ -229,7 +228,7 @@ bool looks_crowded(const Points& points, Range range, const WindowLattice& latti
     return pairs > 8 && pairs * range.count > 4 * most_crowded * all_pairs;
 }
 
-// Whether a point finds too many others in its own cell, by the number of points in each.
+// True if a point finds too many others in its own cell, by the number of points in each.
 bool is_crowded(const std::uint32_t* counts, std::size_t cells, std::uint32_t points) {
     std::uint64_t sum = 0;
     for (std::size_t c = 0; c < cells; ++c) sum += std::uint64_t{counts[c]} * counts[c];

@@ -74,8 +74,7 @@ inline std::size_t most_window_cells(std::uint32_t points) noexcept {
 // Covers `box` with cells of `cell_size`, or of larger ones where more than `most_cells` would be needed.
 WindowLattice make_lattice(const Box& box, double cell_size, std::size_t most_cells);
 
-// The same for points in `box`. Where a few points far from the others would make the cells large, the
-// lattice covers the bulk only.
+// Covers points in `box`; only their bulk, where a few points far from the others would make cells large.
 WindowLattice make_lattice(const Points& points, const Box& box, double cell_size, std::size_t most_cells);
 
 struct Bins;
@@ -126,7 +125,7 @@ Window bin(const Points& points, const WindowLattice& lattice, const Box& box, B
 // `points`. Returns the index of the root.
 std::uint32_t bin_tree(Points& points, double cell_size, Bins& bins);
 
-// Whether there is a point in `box`.
+// True if there is a point in `box`.
 bool holds_point(const Window& window, const Box& box) noexcept;
 
 // Calls function(window) for each window with points of the tree at `root` whose box meets `box`.

@@ -1,6 +1,5 @@
 #include "fast/windows.hpp"
 
-#include "base/array.hpp"
 #include "base/clock.hpp"
 
 #include <algorithm>
@@ -16,7 +15,7 @@ constexpr double cell_in_tile_sides = 0.6;
 // A cell size asked for is used up to this many times the automatic one: beyond it, every tile would meet
 // every vertex.
 constexpr double largest_factor = 16;
-// The same as cell_in_tile_sides for the winding numbers of self-collision.
+// cell_in_tile_sides for the winding numbers of self-collision.
 constexpr double winding_cell_in_tile_sides = 0.55;
 // The winding numbers of a body with so many tets are worth sharing among the workers: by bench_stages, they
 // take 0.2 ms of one. Each such body is a task of the step, so their number is limited to stay below
@@ -79,7 +78,7 @@ void sample_tiles(const StepBody& body, StepBoxes& boxes, TileSize& size) {
     }
 }
 
-// Whether winding numbers show which vertices may be in the body's own tets; then that is in `certificate`.
+// True if winding numbers show which vertices may be in the body's own tets; then that is in `certificate`.
 bool cull_by_winding(const Step& step, std::uint32_t b, Workers* helpers, StepBoxes& boxes,
                      Certificate& certificate, Windows::Worker& worker) {
     const StepBody& body = step.of[b];
@@ -87,22 +86,19 @@ bool cull_by_winding(const Step& step, std::uint32_t b, Workers* helpers, StepBo
     const std::uint64_t start = nanoseconds();
     TileSize size;
     sample_tiles(body, boxes, size);
-    const WindingBody winding{*body.tiles,
-                              *body.boundary,
-                              body.positions,
-                              step.bodies[b].vertex_count,
-                              boxes.bodies[b],
-                              winding_cell_in_tile_sides * size.mean(),
-                              boxes.super_tiles.data() + body.first_super,
-                              boxes.super_change.data() + body.first_super,
-                              boxes.super_positive.data() + body.first_super,
-                              boxes.tiles.data() + body.first_tile,
-                              boxes.tile_known.data() + body.first_tile,
-                              *body.orientation,
-                              helpers,
-                              body.rounded,
-                              step.origin,
-                              step.bodies[b].positions};
+    const Box& box = boxes.bodies[b];
+    const WindingBody winding{
+        {*body.tiles, *body.boundary, body.positions, step.bodies[b].vertex_count, body.rounded,
+         body.rounded ? slack_of_rounding(box) : 0, boxes.super_change.data() + body.first_super,
+         boxes.super_positive.data() + body.first_super, boxes.tiles.data() + body.first_tile,
+         boxes.tile_known.data() + body.first_tile},
+        box,
+        winding_cell_in_tile_sides * size.mean(),
+        boxes.super_tiles.data() + body.first_super,
+        *body.orientation,
+        helpers,
+        step.origin,
+        step.bodies[b].positions};
     const bool culled = certify(winding, certificate, worker.exact_tests);
     worker.winding_ns += nanoseconds() - start;
     return culled;
@@ -156,7 +152,7 @@ void make_window(const Step& step, const BroadPhase& broad, double cell_size, st
                  points);
     if (points.count == 0) return;
 
-    // From the mean side of the tiles that will look into the window.
+    // The size follows from the mean side of the tiles that will look into the window.
     TileSize size;
     for (const PairRegion& pair : pairs) size.add(pair.tile_size);
     if (!is_empty(own)) sample_tiles(step_body, boxes, size);

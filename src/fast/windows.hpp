@@ -25,7 +25,7 @@ struct BodyWindow {
     double cell_size;
 };
 
-// What it takes to make the windows of a body.
+// Buffers for the windows of a body.
 struct WindowBuffers {
     explicit WindowBuffers(std::pmr::memory_resource* memory)
         : certificate(memory), active(memory), points(memory) {}
@@ -46,7 +46,7 @@ struct Windows {
           large_of(memory) {}
 
     Array<BodyWindow> of; // each body
-    // Of each body; without cells where winding numbers decided nothing. Empty unless asked for.
+    // For each body; without cells where winding numbers decided nothing. Empty unless asked for.
     Array<CertifiedCells> certified;
     Array<Bins> bins;
 

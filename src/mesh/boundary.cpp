@@ -1,6 +1,5 @@
 #include "mesh/boundary.hpp"
 
-#include "base/array.hpp"
 #include "base/vectors.hpp"
 
 #include <algorithm>

@@ -16,7 +16,7 @@ struct Boundary {
     explicit Boundary(std::pmr::memory_resource* memory) noexcept
         : triangles(memory), mirrored(memory), ignored(memory), loose(memory) {}
 
-    // Whether the triangles are the boundary of all tets: the facets left after opposite ones cancel, using
+    // True if the triangles are the boundary of all tets: the facets left after opposite ones cancel, using
     // each tet's intended orientation. This holds if every facet belongs to one tet, or to two on different
     // sides of it, and in some other cases. Otherwise the members below are empty.
     bool is_closed = false;
@@ -30,13 +30,13 @@ struct Boundary {
     Array<std::uint32_t> loose; // vertices that are in no tet, ignored ones aside; ascending
 };
 
-// Whether culling self-collision by winding numbers pays: not for small bodies, nor for bodies that are
+// True if culling self-collision by winding numbers pays: not for small bodies, nor for bodies that are
 // mostly boundary.
 constexpr bool boundary_pays(std::size_t triangles, std::size_t tets) noexcept {
     return tets >= 2000 && triangles * 8 <= tets;
 }
 
-// Whether a tet is negative.
+// True if a tet is negative.
 bool is_negative(const Tet& tet, const Positions& positions) noexcept;
 
 // The facet's vertices: low, middle, high if it is even, else in the opposite order.

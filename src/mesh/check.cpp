@@ -2,14 +2,12 @@
 
 #include "base/structs.hpp"
 #include "mesh/filter.hpp"
-#include "mesh/highest_index.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cinttypes>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <cstring>
 
 namespace vox {
@@ -20,9 +18,8 @@ static_assert(sizeof(Tet) == 4 * sizeof(std::uint32_t) && alignof(Tet) == aligno
 Body check_mesh(const vox_mesh_desc& desc, const char* where, NullPositions null_positions) {
     constexpr std::uint32_t known_flags = VOX_MESH_COPY_POSITIONS | VOX_MESH_BORROW_TETS;
     if (desc.flags & ~known_flags)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("%sflags is 0x%" PRIx32 ", of which 0x%" PRIx32 " is unknown", where, desc.flags,
-                           desc.flags & ~known_flags));
+        refuse(format("%sflags is 0x%" PRIx32 ", of which 0x%" PRIx32 " is unknown", where, desc.flags,
+                      desc.flags & ~known_flags));
     if (desc.positions.count > VOX_MAX_VERTICES)
         throw Error(VOX_ERROR_LIMIT, format("%spositions.count is %" PRIu64 ", the limit is %" PRIu32, where,
                                             desc.positions.count, VOX_MAX_VERTICES));
@@ -31,15 +28,11 @@ Body check_mesh(const vox_mesh_desc& desc, const char* where, NullPositions null
                                             desc.tet_count, VOX_MAX_TETS));
     const Positions positions = check_positions(desc.positions, format("%spositions", where).c_str());
     if (!desc.positions.data && desc.positions.count > 0 && null_positions == NullPositions::rejected)
-        throw Error(
-            VOX_ERROR_INVALID_ARGUMENT,
-            format("%spositions.data is null, positions.count is %" PRIu64, where, desc.positions.count));
+        refuse(format("%spositions.data is null, positions.count is %" PRIu64, where, desc.positions.count));
     if (!desc.tets && desc.tet_count > 0)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("%stets is null, tet_count is %" PRIu64, where, desc.tet_count));
+        refuse(format("%stets is null, tet_count is %" PRIu64, where, desc.tet_count));
     if (reinterpret_cast<std::uintptr_t>(desc.tets) % alignof(Tet) != 0)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("%stets is not aligned to %zu bytes", where, alignof(Tet)));
+        refuse(format("%stets is not aligned to %zu bytes", where, alignof(Tet)));
 
     Body body;
     body.vertex_count = static_cast<std::uint32_t>(desc.positions.count);
@@ -47,7 +40,6 @@ Body check_mesh(const vox_mesh_desc& desc, const char* where, NullPositions null
     body.positions = positions;
     body.tets = {reinterpret_cast<const Tet*>(desc.tets), static_cast<std::size_t>(desc.tet_count)};
     body.self_collision = collides_with_itself(desc.filter);
-    if (body.tets.empty() || highest_index(desc.tets, 4 * body.tets.size()) < body.vertex_count) return body;
     for (std::size_t tet = 0; tet < body.tets.size(); ++tet)
         for (const std::uint32_t vertex : body.tets[tet].v)
             if (vertex >= body.vertex_count)
@@ -100,10 +92,6 @@ MeshError position_error(const Body& body, std::uint32_t vertex) {
                      vertex);
 }
 
-void check_finite(const Body& body, std::uint32_t vertex) {
-    if (!is_finite(body, vertex)) throw position_error(body, vertex);
-}
-
 namespace {
 
 // Packed numbers that are read as floats, as words of doubles.
@@ -112,7 +100,7 @@ struct WordCounts {
     bool ordinary = true;             // all high words are 0, or from 2^-30 to 2^31
 };
 
-// Of the numbers [first, last), where `first` is even.
+// Counts the numbers [first, last), where `first` is even.
 void count_words(const std::byte* data, std::size_t first, std::size_t last, WordCounts& counts) noexcept {
     constexpr std::size_t high_word = std::endian::native == std::endian::little ? 1 : 0;
     for (std::size_t i = first; i < last; ++i) {

@@ -32,7 +32,7 @@ public:
     std::uint32_t mesh, vertex;
 };
 
-// Whether a coordinate is finite, and rounds to a finite float.
+// True if a coordinate is finite, and rounds to a finite float.
 bool is_finite(const Body& body, std::uint32_t vertex) noexcept;
 
 // The first vertex that is not; VOX_NONE if all are.
@@ -44,9 +44,8 @@ vox_result bad_position(const Body& body, std::uint32_t vertex) noexcept;
 // The error about such a vertex.
 MeshError position_error(const Body& body, std::uint32_t vertex);
 
-// Throws position_error() for the first bad vertex, or for the given one if it is bad.
+// Throws position_error() for the first bad vertex.
 void check_finite(const Body& body);
-void check_finite(const Body& body, std::uint32_t vertex);
 
 // Throws MeshError with INVALID_ARGUMENT for positions that are read as floats but can only be doubles.
 // Returns false if there are too few of them to tell.

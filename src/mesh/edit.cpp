@@ -1,13 +1,11 @@
 // Edits of a mesh: first everything that can fail, then the change itself, then the repair of what was
 // prepared of the mesh, which takes time in proportion to the edit.
-#include "base/array.hpp"
 #include "mesh/mesh.hpp"
 
 #include "base/error.hpp"
 #include "base/room.hpp"
 #include "mesh/check.hpp"
 #include "mesh/tet_changes.hpp"
-#include "mesh/tile_repair.hpp"
 
 #include <algorithm>
 #include <cinttypes>
@@ -25,11 +23,8 @@ void check_items(std::span<const std::uint32_t> items, std::size_t count, const 
                  const char* name) {
     for (std::size_t i = 0; i < items.size(); ++i) {
         if (items[i] >= count)
-            throw Error(VOX_ERROR_INVALID_ARGUMENT, format("%s[%zu] is %" PRIu32 ", the mesh has %zu %s",
-                                                           name, i, items[i], count, name));
-        if (removed[items[i]])
-            throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                        format("%s[%zu] is %" PRIu32 ", which was removed", name, i, items[i]));
+            refuse(format("%s[%zu] is %" PRIu32 ", the mesh has %zu %s", name, i, items[i], count, name));
+        if (removed[items[i]]) refuse(format("%s[%zu] is %" PRIu32 ", which was removed", name, i, items[i]));
     }
 }
 
@@ -150,15 +145,13 @@ Positions Mesh::check_appended(const vox_vertices_desc& desc, std::uint32_t coun
     if (!desc.positions.data) return {};
     const Positions given = check_positions(desc.positions, "positions");
     if (desc.positions.count != count)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("positions.count is %" PRIu64 ", expected %" PRIu32 ": the mesh %s",
-                           desc.positions.count, count,
-                           owns_positions_ ? "has positions of its own, and needs those of the new vertices"
-                                           : "borrows its positions, and needs those of all vertices"));
+        refuse(format("positions.count is %" PRIu64 ", expected %" PRIu32 ": the mesh %s",
+                      desc.positions.count, count,
+                      owns_positions_ ? "has positions of its own, and needs those of the new vertices"
+                                      : "borrows its positions, and needs those of all vertices"));
     if (owns_positions_ && given.doubles != positions_.doubles)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("positions.format is VOX_FORMAT_%s, that of the mesh is not",
-                           given.doubles ? "DOUBLE" : "FLOAT"));
+        refuse(format("positions.format is VOX_FORMAT_%s, that of the mesh is not",
+                      given.doubles ? "DOUBLE" : "FLOAT"));
     return given;
 }
 
@@ -170,21 +163,17 @@ std::uint32_t Mesh::append_vertices(const vox_vertices_desc& desc) {
     const Positions given = check_appended(desc, owns ? added : count);
     for (std::uint32_t i = 0; desc.copies_of && i < added; ++i)
         if (desc.copies_of[i] >= before)
-            throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                        format("copies_of[%" PRIu32 "] is %" PRIu32 ", the mesh has %" PRIu32 " vertices", i,
-                               desc.copies_of[i], before));
+            refuse(format("copies_of[%" PRIu32 "] is %" PRIu32 ", the mesh has %" PRIu32 " vertices", i,
+                          desc.copies_of[i], before));
     if (added == 0) return before;
     if (!given.data && !owns && positions_.data)
-        throw Error(
-            VOX_ERROR_INVALID_ARGUMENT,
+        refuse(
             format("positions.data is null: the mesh borrows its positions, and needs all %" PRIu32, count));
     if (owns && !given.data && !desc.copies_of)
-        throw Error(
-            VOX_ERROR_INVALID_ARGUMENT,
-            format(
-                "positions.data and copies_of are null: the mesh has positions of its own, and needs %" PRIu32
-                " more",
-                added));
+        refuse(format(
+            "positions.data and copies_of are null: the mesh has positions of its own, and needs %" PRIu32
+            " more",
+            added));
 
     // Positions: all of them where they are borrowed, else those of the new vertices.
     Array<std::byte> news(memory()); // apart: growing owned_ moves what they may be copied from
@@ -239,9 +228,8 @@ void Mesh::remove_vertices(std::span<const std::uint32_t> vertices) {
     MeshEdits& edits = list_tets_of();
     for (const std::uint32_t v : vertices)
         if (const std::span<const std::uint32_t> around = std::as_const(edits.tets_of)[v]; !around.empty())
-            throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                        format("vertex %" PRIu32 " is a corner of tet %" PRIu32 ", which is on", v,
-                               *std::min_element(around.begin(), around.end())));
+            refuse(format("vertex %" PRIu32 " is a corner of tet %" PRIu32 ", which is on", v,
+                          *std::min_element(around.begin(), around.end())));
     edits.removed_vertices.reserve(vertex_count_);
 
     for (const std::uint32_t v : vertices) {

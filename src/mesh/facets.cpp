@@ -1,10 +1,8 @@
 // Tetrahedra are listed by corner with a counting sort. Then the facets that have a vertex as their lowest
 // one are sorted and matched, vertex by vertex: these lists are short and stay in cache.
 #include "mesh/facets.hpp"
-#include "base/array.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace vox {
 
@@ -28,8 +26,8 @@ std::array<std::uint64_t, 4> sorted_corners(const Tet& tet) noexcept {
     return c;
 }
 
-} // namespace
-
+// For each vertex the tetrahedra that have it as one of their two lowest corners, which list_facets_at()
+// needs.
 IndexLists list_by_lowest(std::span<const Tet> tets, std::uint32_t vertex_count,
                           std::pmr::memory_resource* memory) {
     IndexLists lists(memory);
@@ -42,8 +40,9 @@ IndexLists list_by_lowest(std::span<const Tet> tets, std::uint32_t vertex_count,
     return lists;
 }
 
-// Without branches, which would be mispredicted in meshes numbered at random: of each tetrahedron all facets
-// that may be wanted are written, and then as many kept as are.
+// Lists the facets whose lowest vertex is `vertex` in `room`, which grows as needed. `around` are the
+// tetrahedra at the vertex. Without branches, which would be mispredicted in meshes numbered at random: of
+// each tetrahedron all facets that may be wanted are written, and then as many kept as are.
 std::span<TetFacet> list_facets_at(std::uint32_t vertex, std::span<const Tet> tets,
                                    std::span<const std::uint32_t> around, Array<TetFacet>& room) {
     if (room.size() < 3 * around.size()) room.resize(3 * around.size());
@@ -68,17 +67,7 @@ std::span<TetFacet> list_facets_at(std::uint32_t vertex, std::span<const Tet> te
     return {room.data(), next};
 }
 
-void sort_facets(std::span<TetFacet> facets) {
-    constexpr std::size_t few = 48;
-    if (facets.size() > few) return std::sort(facets.begin(), facets.end());
-    // By insertion, as each element costs one mispredicted branch.
-    for (std::size_t i = 1; i < facets.size(); ++i) {
-        const TetFacet facet = facets[i];
-        std::size_t j = i;
-        for (; j > 0 && facet < facets[j - 1]; --j) facets[j] = facets[j - 1];
-        facets[j] = facet;
-    }
-}
+} // namespace
 
 std::size_t Across::bytes() const noexcept {
     return codes_.capacity() * sizeof codes_[0] + blocks_.capacity() * sizeof(Block) +
@@ -152,8 +141,11 @@ void MatchedFacets::clear(std::size_t tets) {
 void FacetMatcher::match_at(std::uint32_t vertex, std::span<const std::uint32_t> around) {
     const std::span<TetFacet> facets = list_facets_at(vertex, tets_, around, room_);
     if (facets.size() <= most_hashed && match_pairs(vertex, facets)) return;
-    sort_facets(facets);
-    for_equal_facets(facets, [&](std::span<const TetFacet> same) { match(same); });
+    std::sort(facets.begin(), facets.end());
+    for (std::size_t first = 0, last = 0; first < facets.size(); first = last) {
+        while (last < facets.size() && facets[last].others == facets[first].others) ++last;
+        match(facets.subspan(first, last - first));
+    }
 }
 
 void FacetMatcher::match(std::span<const TetFacet> same) {
@@ -192,7 +184,7 @@ bool FacetMatcher::match_pairs(std::uint32_t vertex, std::span<TetFacet> facets)
         else
             facets[alone++] = facet;
     }
-    sort_facets(facets.first(alone));
+    std::sort(facets.begin(), facets.begin() + static_cast<std::ptrdiff_t>(alone));
     for (const TetFacet& facet : facets.first(alone)) match({&facet, 1});
     return true;
 }

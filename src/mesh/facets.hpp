@@ -68,27 +68,6 @@ struct TetFacet {
     }
 };
 
-// Lists the facets whose lowest vertex is `vertex` in `room`, which grows as needed. `around` are the
-// tetrahedra at the vertex.
-std::span<TetFacet> list_facets_at(std::uint32_t vertex, std::span<const Tet> tets,
-                                   std::span<const std::uint32_t> around, Array<TetFacet>& room);
-void sort_facets(std::span<TetFacet> facets);
-
-// Calls visit(same) for each facet of a sorted list; `same` has an element for each tetrahedron with this
-// facet.
-template <class Visit>
-void for_equal_facets(std::span<const TetFacet> facets, Visit&& visit) {
-    for (std::size_t first = 0, last = 0; first < facets.size(); first = last) {
-        while (last < facets.size() && facets[last].others == facets[first].others) ++last;
-        visit(facets.subspan(first, last - first));
-    }
-}
-
-// For each vertex the tetrahedra that have it as one of their two lowest corners, which list_facets_at()
-// needs.
-IndexLists list_by_lowest(std::span<const Tet> tets, std::uint32_t vertex_count,
-                          std::pmr::memory_resource* memory);
-
 // A facet of one tetrahedron only, in the order of facet_corners of that tetrahedron.
 struct Triangle {
     std::uint32_t v[3];

@@ -3,7 +3,6 @@
 // kept sorted, so that a test in the step is four binary searches and allocates nothing.
 #include "mesh/filter.hpp"
 
-#include "base/array.hpp"
 #include "base/error.hpp"
 #include "base/room.hpp"
 #include "base/structs.hpp"
@@ -22,15 +21,12 @@ vox_filter checked_filter(vox_filter filter) {
     set_default(filter.mask, ~std::uint64_t{0});
     constexpr std::uint32_t known_flags = VOX_FILTER_SELF_COLLISION | VOX_FILTER_SENSOR;
     if (filter.flags & ~known_flags)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT, format("filter flags is 0x%x, of which 0x%x is unknown",
-                                                       filter.flags, filter.flags & ~known_flags));
+        refuse(format("filter flags is 0x%x, of which 0x%x is unknown", filter.flags,
+                      filter.flags & ~known_flags));
     if (!(filter.self_rest_distance >= 0) || std::isinf(filter.self_rest_distance))
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("filter self_rest_distance is %g, expected a finite number >= 0",
-                           filter.self_rest_distance));
-    if (filter.self_rings > VOX_MAX_RINGS)
-        throw Error(VOX_ERROR_LIMIT,
-                    format("filter self_rings is %u, the limit is %u", filter.self_rings, VOX_MAX_RINGS));
+        refuse(format("filter self_rest_distance is %g, expected a finite number >= 0",
+                      filter.self_rest_distance));
+    check_limit(filter.self_rings, VOX_MAX_RINGS, "filter self_rings");
     return filter;
 }
 

@@ -25,10 +25,10 @@ inline bool collides_with_itself(const vox_filter& filter) noexcept {
     return (filter.flags & VOX_FILTER_SELF_COLLISION) != 0;
 }
 
-// Whether vertices of one body may make contacts with tetrahedra of another one.
+// True if vertices of one body may make contacts with tetrahedra of another one.
 bool collide(const Body& a, const Body& b) noexcept;
 
-// Whether contacts between the two bodies have penetrations.
+// True if contacts between the two bodies have penetrations.
 inline bool have_penetrations(const Body& a, const Body& b) noexcept { return !a.sensor && !b.sensor; }
 
 // The vertices within so many edges of each vertex.
@@ -93,7 +93,7 @@ struct SelfFilter {
     RestPose rest;            // empty until it is known
     double rest_distance = 0; // 0: no such filter
 
-    // Whether the filters drop a contact of `vertex` with `tet`: a corner of the tet is within the rings, or
+    // True if the filters drop a contact of `vertex` with `tet`: a corner of the tet is within the rings, or
     // the closed tet is closer than rest_distance in the rest pose.
     bool skips(std::uint32_t vertex, const Tet& tet) const noexcept {
         return (!rings.near.empty() && is_near(vertex, tet)) ||

@@ -1,12 +1,10 @@
 #include "mesh/mesh.hpp"
 
-#include "base/array.hpp"
 #include "base/error.hpp"
 #include "mesh/check.hpp"
 #include "mesh/ids.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace vox {
 
@@ -28,7 +26,7 @@ Mesh::Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter
     set_filter(filter);
 }
 
-// For changes: a copy of those that are borrowed.
+// Copies borrowed tetrahedra, so that they can change.
 Array<Tet>& Mesh::own_tets() {
     if (borrows_tets()) {
         own_tets_.assign(tets_.begin(), tets_.end());
@@ -57,7 +55,7 @@ void Mesh::drop_topology() noexcept {
     ++topology_version_;
 }
 
-// From the heap, as a const call must not use the memory of the grid.
+// It comes from the heap, as a const call must not use the memory of the grid.
 const MeshSample& Mesh::sample() const {
     return sample_.get([this] {
         return make_sample(body(VOX_NULL_BODY), kept_sample(tets().size()), std::pmr::new_delete_resource(),

@@ -4,7 +4,6 @@
 
 #include "base/array.hpp"
 #include "base/bits.hpp"
-#include "base/lazy.hpp"
 #include "base/scene.hpp"
 #include "mesh/filter.hpp"
 #include "mesh/sample.hpp"
@@ -14,10 +13,13 @@
 #include <vox/vox.h>
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <memory_resource>
 #include <span>
+#include <utility>
 
 namespace vox {
 
@@ -33,14 +35,45 @@ struct MeshEdits {
     bool has_tets_of = false;
 };
 
+// Made by the first call of get(), and then kept. If several threads call at the same time, each makes a
+// value, and the first one ready is kept.
+template <class T>
+class Lazy {
+public:
+    Lazy() noexcept = default;
+    Lazy(Lazy&& other) noexcept : made_(other.made_.exchange(nullptr)) {}
+    Lazy& operator=(Lazy&& other) noexcept {
+        delete made_.exchange(other.made_.exchange(nullptr));
+        return *this;
+    }
+    ~Lazy() { reset(); }
+
+    // The reference is valid until the next call that is not const.
+    template <class Make>
+    const T& get(Make&& make) const {
+        if (const T* made = made_.load(std::memory_order_acquire)) return *made;
+        auto value = std::make_unique<T>(std::forward<Make>(make)());
+        const T* first = nullptr;
+        if (!made_.compare_exchange_strong(first, value.get(), std::memory_order_acq_rel,
+                                           std::memory_order_acquire))
+            return *first;
+        return *value.release();
+    }
+
+    void reset() noexcept { delete made_.exchange(nullptr); }
+
+private:
+    mutable std::atomic<const T*> made_ = nullptr;
+};
+
 class Mesh {
 public:
     // An empty slot's mesh.
     explicit Mesh(std::pmr::memory_resource* memory) noexcept
         : topology_(memory), tiled_(memory), own_tets_(memory), edits_(memory), owned_(memory),
           self_filter_(memory), exceptions_(memory), filter_(checked_filter({})) {}
-    // Of a checked desc, whose arrays it copies or borrows as the flags say. `view` is what check_mesh() made
-    // of it; `filter` is used in place of desc.filter.
+    // Copies or borrows the arrays of a checked desc, as its flags say. `view` is what check_mesh() made of
+    // it; `filter` is used in place of desc.filter.
     Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter,
          std::pmr::memory_resource* memory);
 
@@ -180,10 +213,10 @@ private:
     Array<vox_body> exceptions_;
     vox_filter filter_;
     std::uint64_t user_data_ = 0;
-    // From here on what each step looks at.
+    // Each step looks at the members from here on.
     std::array<double, 12> transform_{};
     Positions positions_; // without the transform
-    // As the stages see them: those that are off name one vertex four times. The caller's, or in own_tets_.
+    // For the stages: tets that are off name one vertex four times. The caller's, or in own_tets_.
     std::span<const Tet> tets_;
     std::uint32_t vertex_count_ = 0;
     std::uint32_t tiles_version_ = 0;

@@ -1,13 +1,11 @@
 #include "mesh/sample.hpp"
 
-#include "base/array.hpp"
 #include "base/bits.hpp"
 #include "base/sampling.hpp"
 #include "base/simd.hpp"
 #include "mesh/facets.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 
@@ -96,14 +94,14 @@ ChosenVertices choose_about(std::uint64_t wanted, std::uint64_t of) {
     return {static_cast<std::uint32_t>(static_cast<double>(wanted) / static_cast<double>(of) * 0x1p32)};
 }
 
-// Of a tetrahedron that has a chosen vertex: its corners above that.
+// The corners of a tetrahedron above its chosen vertex.
 struct Above {
     std::uint32_t vertex;
     std::uint32_t count; // 1 to 3
     std::uint32_t v[4];
 };
 
-// What chosen vertices have of a mesh.
+// The parts of a mesh at chosen vertices.
 struct Listed {
     explicit Listed(std::pmr::memory_resource* memory) : above(memory) {}
 
@@ -127,7 +125,7 @@ struct Listed {
     }
 
     Array<Above> above;
-    // Of tetrahedra, that are chosen vertices; those of tetrahedra that name no vertex twice.
+    // Corners that are chosen vertices: of all tetrahedra, and of those that name no vertex twice.
     std::uint64_t corners = 0, proper = 0;
 };
 
@@ -150,8 +148,7 @@ void list_around(const Body& body, const ChosenVertices& chosen, Listed& out) {
     }
 }
 
-// The same from tiles: their vertices are fewer than corners of tetrahedra, and those of a tile together in
-// memory.
+// Does so by tiles: these have fewer vertices than tetrahedra have corners, close together in memory.
 void list_around(const Tiles& tiles, const ChosenVertices& chosen, Listed& out) {
     const auto find = VOX_SIMD_DISPATCH(FindChosen);
     const auto tets_at = VOX_SIMD_DISPATCH(TetsAt);
@@ -167,7 +164,7 @@ void list_around(const Tiles& tiles, const ChosenVertices& chosen, Listed& out) 
             const std::size_t own = place - tile->first_vertex;
             if (own >= tile->vertex_count) continue; // padding
             const std::uint8_t* corners =
-                tiles.corners.data() + 4 * tile_size * static_cast<std::size_t>(tile - tiles.tiles.begin());
+                tiles.corners_of(static_cast<std::size_t>(tile - tiles.tiles.begin()));
             std::uint64_t tets = tets_at(static_cast<std::uint8_t>(own), corners) & tile->all_tets();
             for (; tets != 0; tets &= tets - 1) {
                 const auto t = static_cast<std::uint32_t>(std::countr_zero(tets));

@@ -67,7 +67,7 @@ MeshSample make_sample(const Body& body, const SampleSize& size, std::pmr::memor
 Array<std::uint64_t> unused_vertices(const Body& body, std::pmr::memory_resource* memory,
                                      const Tiles* tiles = nullptr);
 
-// Whether a tetrahedron of a body has a vertex; no tetrahedron is off. Starts at the tetrahedra whose
+// True if a tetrahedron of a body has a vertex; no tetrahedron is off. Starts at the tetrahedra whose
 // relative place in their list is that of the vertex in its own, as neighbours mostly have similar places.
 bool is_used(const Body& body, std::uint32_t vertex) noexcept;
 

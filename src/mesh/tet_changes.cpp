@@ -1,6 +1,5 @@
 #include "mesh/tet_changes.hpp"
 
-#include "base/array.hpp"
 #include "base/bits.hpp"
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 // on the other, and faces away from them. It is there once, however many more they are: the winding number
 // falls across it, and by how much does not matter to the certificate. So where a tet changes, the tets
 // around each of its facets are counted again.
-#include "mesh/tile_repair.hpp"
-#include "base/array.hpp"
+#include "mesh/tet_changes.hpp"
+#include "mesh/tiled_mesh.hpp"
 
 #include <algorithm>
 

@@ -14,6 +14,8 @@
 
 namespace vox {
 
+struct TetChange;
+
 // Where tetrahedra and triangles are. The first edit makes the lists.
 struct TilePlaces {
     explicit TilePlaces(std::pmr::memory_resource* memory) noexcept
@@ -33,7 +35,7 @@ struct TilePlaces {
     Array<std::uint64_t> changed_at; // for each super-tile, `changes` when a tet last joined it
 };
 
-// Without tiles for an empty mesh.
+// An empty mesh has no tiles.
 struct TiledMesh {
     explicit TiledMesh(std::pmr::memory_resource* memory) noexcept
         : tiles(memory), boundary(memory), places(memory) {}
@@ -46,5 +48,23 @@ struct TiledMesh {
 // The positions only decide how compact tiles are; they may move later. `facets` are those of the body's
 // tets; if null, they are matched here if needed. If it throws what the memory throws, `out` is unchanged.
 void make_tiled_mesh(const Body& body, TiledMesh& out, const MatchedFacets* facets = nullptr);
+
+// ---- edits (tile_repair.cpp) ---------------------------------------------------------------------------
+
+// Edits of a mesh that is in tiles. The last tet of a tile fills the gap that a tet leaves. A new tet joins
+// its neighbours while their tile has room, else a new tile at the end. The tiles stay correct, but become
+// less compact: after enough changes they must be made again.
+
+// Applies changes. `body` and `tets_of`, which lists the tets at each vertex, are the state after them. If it
+// returns false, or throws what the memory throws, `mesh` must be made again. The boundary is emptied if it
+// no longer pays.
+bool repair(TiledMesh& mesh, const Body& body, std::span<const TetChange> changes, const IndexLists& tets_of);
+
+// Adds the vertices [count_before, count_after), which are in no tet yet. If it returns false, or throws what
+// the memory throws, `mesh` must be made again.
+bool add_vertices(TiledMesh& mesh, std::uint32_t count_before, std::uint32_t count_after);
+
+// Removes a vertex that cannot make contacts from Boundary::loose.
+void remove_loose(Boundary& boundary, std::uint32_t vertex) noexcept;
 
 } // namespace vox

@@ -3,11 +3,8 @@
 // come out nearly full.
 #include "mesh/tiles.hpp"
 
-#include "base/array.hpp"
 #include "base/bits.hpp"
-#include "base/boxes.hpp"
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "base/array.hpp"
+#include "base/boxes.hpp"
 #include "base/lists.hpp"
 #include "base/scene.hpp"
 
@@ -51,6 +52,9 @@ struct Tiles {
     Array<std::uint32_t> super_first;
     IndexLists blocks; // for each super-tile those that contain its vertices, ascending
 
+    const std::uint8_t* corners_of(std::size_t tile) const noexcept {
+        return corners.data() + tile * 4 * tile_size;
+    }
     std::uint32_t block_count() const noexcept { return intervals(block_first); }
     std::uint32_t super_tile_count() const noexcept { return intervals(super_first); }
     std::uint32_t block_of(std::uint32_t vertex) const noexcept { return interval(block_first, vertex); }
@@ -83,5 +87,25 @@ constexpr std::uint32_t lower_part(std::uint32_t count) noexcept {
     const std::uint32_t parts = std::max(2u, (count + target_tets - 1) / target_tets);
     return static_cast<std::uint32_t>(std::uint64_t{count} * (parts / 2) / parts);
 }
+
+// The harmonic mean of the sides of tiles: a few that reach across the world have little weight.
+struct TileSize {
+    double inverse_sum = 0, count = 0;
+
+    // Adds `tiles` tiles of the size of `box`.
+    void add(const Box& box, double tiles = 1) noexcept {
+        const double sides = (double{box.hi[0]} - double{box.lo[0]}) +
+                             (double{box.hi[1]} - double{box.lo[1]}) +
+                             (double{box.hi[2]} - double{box.lo[2]});
+        if (!(sides > 0)) return;
+        inverse_sum += tiles * (3 / sides);
+        count += tiles;
+    }
+    void add(const TileSize& other) noexcept {
+        inverse_sum += other.inverse_sum;
+        count += other.count;
+    }
+    double mean() const noexcept { return count > 0 ? count / inverse_sum : 0; }
+};
 
 } // namespace vox

@@ -1,6 +1,5 @@
 #include "mesh/vertex_links.hpp"
 
-#include "base/array.hpp"
 #include "base/error.hpp"
 
 #include <algorithm>
@@ -9,7 +8,7 @@ namespace vox {
 
 namespace {
 
-// Whether the numbers ascend, in steps of 16 bits.
+// True if the numbers ascend, in steps of 16 bits.
 bool are_near(std::span<const std::uint32_t> numbers) noexcept {
     bool near = true;
     for (std::size_t i = 1; i < numbers.size(); ++i) near &= numbers[i] - numbers[i - 1] <= 0xffff;

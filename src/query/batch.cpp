@@ -1,6 +1,5 @@
 #include "query/batch.hpp"
 
-#include "base/array.hpp"
 #include "base/vectors.hpp"
 #include "exact/predicates.hpp"
 

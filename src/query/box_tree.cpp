@@ -1,5 +1,6 @@
 #include "query/box_tree.hpp"
 
+#include "base/median_splits.hpp"
 #include "base/room.hpp"
 
 #include <algorithm>
@@ -14,22 +15,6 @@ namespace {
 float centre(float lo, float hi) noexcept {
     const float middle = 0.5f * lo + 0.5f * hi;
     return std::isfinite(middle) ? middle : 0;
-}
-
-template <class Centre>
-int longest_side(std::span<const Centre> centres) noexcept {
-    float least[3], most[3];
-    for (int axis = 0; axis < 3; ++axis) least[axis] = most[axis] = centres[0].at[axis];
-    for (const Centre& centre : centres)
-        for (int axis = 0; axis < 3; ++axis) {
-            const float c = centre.at[axis];
-            least[axis] = c < least[axis] ? c : least[axis];
-            most[axis] = c > most[axis] ? c : most[axis];
-        }
-    int longest = 0;
-    for (int axis = 1; axis < 3; ++axis)
-        if (most[axis] - least[axis] > most[longest] - least[longest]) longest = axis;
-    return longest;
 }
 
 } // namespace
@@ -88,7 +73,7 @@ std::size_t BoxTree::leaves_below(std::size_t node) const noexcept {
 // Moves the centres of the left child of a node to the front, and returns their number.
 std::size_t BoxTree::halve(std::size_t node, std::span<Centre> centres) const noexcept {
     const std::size_t left = leaves_below(2 * node);
-    const int axis = longest_side(std::span<const Centre>(centres));
+    const int axis = longest_axis(centres);
     std::nth_element(centres.begin(), centres.begin() + static_cast<std::ptrdiff_t>(left), centres.end(),
                      [axis](const Centre& x, const Centre& y) { return x.at[axis] < y.at[axis]; });
     return left;

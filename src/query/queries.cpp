@@ -2,7 +2,6 @@
 // suit bodies that deform; this is quick, as there are few tiles.
 #include "query/queries.hpp"
 
-#include "base/boxes.hpp"
 #include "base/error.hpp"
 #include "base/room.hpp"
 #include "base/rounding.hpp"
@@ -110,8 +109,7 @@ void Queries::make_boxes(std::uint32_t leaf) noexcept {
     const Tiles& tiles = mesh.tets->tiles;
     const Tile& tile = tiles.tiles[leaves_[leaf].tile];
     const std::uint32_t* const vertices = tiles.vertices.data() + tile.first_vertex;
-    const std::uint8_t* const corners =
-        tiles.corners.data() + std::size_t{leaves_[leaf].tile} * 4 * tile_size;
+    const std::uint8_t* const corners = tiles.corners_of(leaves_[leaf].tile);
     const std::uint8_t* const facets = mesh.tets->facets.data() + tile.first_tet;
     Box3f* const boxes = boxes_.data() + mesh.first_tet + tile.first_tet;
 

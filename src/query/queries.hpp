@@ -6,7 +6,6 @@
 #include "base/boxes.hpp"
 #include "base/parallel.hpp"
 #include "base/scene.hpp"
-#include "mesh/tile_sides.hpp"
 #include "mesh/tiles.hpp"
 #include "query/box_tree.hpp"
 #include "query/tets.hpp"
@@ -71,7 +70,7 @@ public:
     // The hits of ray 0, sorted by (t, body, tet, facet), into an empty `hits`.
     void ray_hits(const Vec3d& from, const Vec3d& to, QueryMeshes which, bool first_only,
                   Array<vox_ray_hit>& hits) const;
-    // Whether a tetrahedron with a volume is on the ray.
+    // True if a tetrahedron with a volume is on the ray.
     bool blocks(const Vec3d& from, const Vec3d& to, QueryMeshes which) const noexcept;
 
 private:
@@ -150,8 +149,7 @@ private:
 class Queries::LeafTets {
 public:
     LeafTets(const Mesh& mesh, std::uint32_t tile, const Vec3d* vertices, const Box3f* boxes) noexcept
-        : tets_(*mesh.tets), tile_(tets_.tiles.tiles[tile]),
-          corners_(tets_.tiles.corners.data() + std::size_t{tile} * 4 * tile_size),
+        : tets_(*mesh.tets), tile_(tets_.tiles.tiles[tile]), corners_(tets_.tiles.corners_of(tile)),
           positions_(vertices + mesh.first_vertex), boxes_(boxes + mesh.first_tet + tile_.first_tet) {}
 
     std::size_t size() const noexcept { return tile_.tet_count; }

@@ -118,7 +118,7 @@ double find_entry(const Vec3d& from, const Vec3d& to, const Tets& tets, std::siz
     return t < infinity && orientation(a, b, c, d, exact_tests) == 0 ? infinity : t;
 }
 
-// Whether a segment enters or leaves a tetrahedron through a facet.
+// True if a segment enters or leaves a tetrahedron through a facet.
 template <class Tets>
 vox_side side_of(const RayCrossing& crossing, const Tets& tets, std::size_t tet, std::uint32_t facet,
                  const OrderedFacet& f) noexcept {

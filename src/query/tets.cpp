@@ -37,7 +37,7 @@ std::shared_ptr<const QueryTets> make_query_tets(const Tiles& tiles, const Topol
         if (tile.tet_count == 0) continue;
         const std::uint32_t* const tets = tiles.tets.data() + tile.first_tet;
         const std::uint32_t* const vertices_of_tile = tiles.vertices.data() + tile.first_vertex;
-        const std::uint8_t* const corners = tiles.corners.data() + t * 4 * tile_size;
+        const std::uint8_t* const corners = tiles.corners_of(t);
         tile.first_tet = static_cast<std::uint32_t>(to.tets.size());
         tile.first_vertex = static_cast<std::uint32_t>(to.vertices.size());
         to.tiles.push_back(tile);

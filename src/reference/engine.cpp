@@ -3,7 +3,6 @@
 // paper does not have, classification and pass two run once for each level.
 #include "reference/engine.hpp"
 
-#include "base/array.hpp"
 #include "base/bits.hpp"
 #include "base/boxes.hpp"
 #include "base/clock.hpp"

@@ -41,7 +41,7 @@ public:
     void detect(std::span<const Body> bodies, const ReferenceSettings& settings, Array<Hit>& hits,
                 Counters& counters, Profile& profile);
 
-    // Those of the last level.
+    // The cells of the last level.
     const CellLists& cells() const noexcept { return cells_; }
 
 private:

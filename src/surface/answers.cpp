@@ -3,11 +3,9 @@
 #include "exact/crossing.hpp"
 #include "surface/distance.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <mutex>
-#include <tuple>
 
 namespace vox {
 
@@ -21,7 +19,7 @@ std::span<const std::uint32_t> corners_in(const SurfaceTopology& topology, vox_f
     return {kind == VOX_FEATURE_VERTEX ? &index : topology.corners(kind, index), corners_of(kind)};
 }
 
-// And where they are at the end of the motion.
+// A feature's corners, and where they are at the end of the motion.
 struct CornersAt {
     CornersAt(const Candidates& of, vox_feature kind, const std::uint32_t& index) noexcept
         : vertices(corners_in(of.topology, kind, index)) {
@@ -77,7 +75,7 @@ void add_crossings(const Candidates& candidates, Workers& workers, Answers<vox_c
 // A pair whose boxes are more than `distance` apart may be closer by rounding (closest_features).
 double proximity_radius(std::span<const Vec3d> positions, double distance) noexcept {
     double largest = 0;
-    for (const Vec3d& p : positions) largest = std::max(largest, largest_number(p));
+    for (const Vec3d& p : positions) largest = std::max(largest, largest_coordinate(p));
     return distance / 2 + distance * 0x1p-40 + largest * 0x1p-44 + std::numeric_limits<double>::denorm_min();
 }
 

@@ -41,7 +41,7 @@ using CV = hn::Vec<CullFloats>;
 using CM = hn::Mask<CullFloats>;
 
 struct CV3 {
-    // Those that gcc makes by itself are not for these instructions: on Arm an error.
+    // gcc's implicit constructors are not compiled for these instructions: an error on Arm.
     HWY_INLINE CV3() {}
     HWY_INLINE CV3(CV to_x, CV to_y, CV to_z) : x(to_x), y(to_y), z(to_z) {}
 
@@ -107,7 +107,7 @@ struct CullPair {
     }
 };
 
-// From the closest point of segment q to that of segment p, about (Ericson 2005, Sect. 5.1.9).
+// The way from the closest point of segment q to that of segment p, about (Ericson 2005, Sect. 5.1.9).
 HWY_INLINE CV3 BetweenSegments(const CV3& p0, const CV3& p1, const CV3& q0, const CV3& q1) {
     const CV3 d1 = CSub(p1, p0), d2 = CSub(q1, q0), r = CSub(p0, q0);
     const CV a = CDot(d1, d1), e = CDot(d2, d2), b = CDot(d1, d2), c = CDot(d1, r), f = CDot(d2, r);
@@ -117,13 +117,13 @@ HWY_INLINE CV3 BetweenSegments(const CV3& p0, const CV3& p1, const CV3& q0, cons
     return CAddScaled(CAddScaled(r, s, d1), hn::Neg(t), d2);
 }
 
-// From the closest point of segment q to p.
+// The way from the closest point of segment q to p.
 HWY_INLINE CV3 BetweenPointAndSegment(const CV3& p, const CV3& q0, const CV3& q1) {
     const CV3 d = CSub(q1, q0), r = CSub(p, q0);
     return CAddScaled(r, hn::Neg(CUnit(CDot(d, r), CDot(d, d))), d);
 }
 
-// From the closest point of triangle q to p: the normal where p is above the triangle.
+// The way from the closest point of triangle q to p, or the normal where p is above the triangle.
 HWY_INLINE CV3 BetweenPointAndTriangle(const CV3& p, const CV3* q) {
     const CV3 normal = CCross(CSub(q[1], q[0]), CSub(q[2], q[0]));
     CV3 nearest = CSub(p, q[0]);
@@ -295,7 +295,7 @@ void put_corners(const CullFrame& frame, std::span<const Vec3d> positions,
 
 } // namespace
 
-CullSome* cull_some() noexcept { return VOX_SIMD_DISPATCH(Cull); }
+std::size_t cull_some(const CullPairs& pairs) { return VOX_SIMD_DISPATCH(Cull)(pairs); }
 
 CullFrame frame_around(const SurfaceMotion& motion, std::span<const std::uint32_t> vertices) noexcept {
     Vec3d lo = motion.from[vertices[0]], hi = lo;

@@ -40,8 +40,7 @@ struct CullPairs {
 
 // Keeps the pairs that are not proven to stay further than `apart` from each other, in their order, and
 // returns their number.
-using CullSome = std::size_t(const CullPairs& pairs);
-CullSome* cull_some() noexcept;
+std::size_t cull_some(const CullPairs& pairs);
 
 CullFrame frame_around(const SurfaceMotion& motion, std::span<const std::uint32_t> vertices) noexcept;
 // 2 * radius in the frame, rounded up.

@@ -2,7 +2,6 @@
 // axes.
 #include "surface/distance.hpp"
 
-#include "base/vectors.hpp"
 #include "exact/closest_point.hpp"
 
 namespace vox {
@@ -110,8 +109,10 @@ Vec3d squared_up(const Vec3d& way, const CornerWeights& at, const Vec3d (&a)[2],
 template <int kA, int kB>
 struct SeenPair {
     SeenPair(std::span<const Vec3d> a, std::span<const Vec3d> b) noexcept : origin(b[0]) {
-        for (std::size_t i = 0; i < kA; ++i) size = std::max(size, largest_number(own[i] = a[i] - origin));
-        for (std::size_t i = 0; i < kB; ++i) size = std::max(size, largest_number(other[i] = b[i] - origin));
+        for (std::size_t i = 0; i < kA; ++i)
+            size = std::max(size, largest_coordinate(own[i] = a[i] - origin));
+        for (std::size_t i = 0; i < kB; ++i)
+            size = std::max(size, largest_coordinate(other[i] = b[i] - origin));
         powers = powers_to_enlarge(size);
         if (powers == 0) return;
         for (Vec3d& v : own) v = times_power(v, powers);
@@ -130,7 +131,7 @@ CloseFeatures closest(std::span<const Vec3d> a, std::span<const Vec3d> b) noexce
     const auto& [origin, own, other, size, powers] = pair;
     const CornerWeights at = closest_weights(own, other);
     const Vec3d on_a = weighted(own, at.a), on_b = weighted(other, at.b), way = on_a - on_b;
-    const double most = largest_number(way); // of which the square might underflow
+    const double most = largest_coordinate(way); // of which the square might underflow
     CloseFeatures found{most > 0x1p-400 ? length(way) : std::ldexp(length(times_power(way, 600)), -600),
                         {at.a[0], at.a[1], at.a[2]},
                         {at.b[0], at.b[1], at.b[2]},

@@ -3,9 +3,8 @@
 // size down to denormals.
 #pragma once
 
-#include "base/scene.hpp"
+#include "base/vectors.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <span>
 
@@ -39,17 +38,10 @@ inline constexpr double good_enough = 0.999; // part of it, so that the next axi
 // Projections on axes whose squared length is less lose digits to underflow.
 inline constexpr double least_squared_axis = 0x1p-900;
 
-inline double largest_number(const Vec3d& v) noexcept {
-    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
-
 // By how many powers of two to enlarge a pair of that size, so that no product of three of its lengths
 // underflows.
 inline int powers_to_enlarge(double size) noexcept {
     return size > 0 && size < 0x1p-160 ? -std::ilogb(size) : 0;
-}
-inline Vec3d times_power(const Vec3d& v, int powers) noexcept {
-    return {std::ldexp(v.x, powers), std::ldexp(v.y, powers), std::ldexp(v.z, powers)};
 }
 
 } // namespace vox

@@ -1,7 +1,6 @@
 // Tiles of features whose middles lie close together, and that are of about the same size.
 #include "surface/feature_tiles.hpp"
 
-#include "base/array.hpp"
 #include "base/median_splits.hpp"
 #include "base/vectors.hpp"
 

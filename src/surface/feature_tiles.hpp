@@ -25,7 +25,7 @@ struct FeatureTiles {
     const float* boxes_of(std::uint32_t tile) const noexcept {
         return boxes.data() + std::size_t{tile} * 6 * features_a_tile;
     }
-    // Also of slots after it.
+    // The corners of a slot, and of the slots after it.
     const std::uint32_t* corners_from(std::uint32_t slot) const noexcept {
         return corner_count == 1 ? features.data() + slot : corners.data() + std::size_t{slot} * corner_count;
     }

@@ -1,14 +1,12 @@
 // The motion that a surface is asked about.
 #pragma once
 
+#include "base/rounding.hpp"
 #include "base/scene.hpp"
 #include "base/vectors.hpp"
 
-#include <bit>
 #include <cstdint>
-#include <limits>
 #include <span>
-#include <type_traits>
 
 namespace vox {
 
@@ -22,21 +20,7 @@ struct SurfaceMotion {
     // Far from zero, floats are far apart. There they are made of what is left of doubles without this point
     // in the middle of all.
     Vec3d origin{};
-
-    bool moves() const noexcept { return from.data() != to.data(); }
 };
-
-// The number before x, in the order of floats or doubles: that of std::nextafter(x, -infinity), but without a
-// call or a branch. x is a number.
-template <class Number>
-Number number_before(Number x) noexcept {
-    using Bits = std::conditional_t<sizeof(Number) == 4, std::uint32_t, std::uint64_t>;
-    constexpr Bits sign = Bits{1} << (8 * sizeof(Number) - 1);
-    constexpr auto lowest = std::bit_cast<Bits>(-std::numeric_limits<Number>::infinity());
-    const Bits bits = x == 0 ? sign : std::bit_cast<Bits>(x);
-    const Bits is_negative = bits >> (8 * sizeof(Number) - 1), is_lowest = bits == lowest;
-    return std::bit_cast<Number>(bits + (2 * is_negative - 1) * (1 - is_lowest));
-}
 
 // One side of the box of a vertex, as vox_motion.radius has it. `at` is the lower, or the higher, of the two
 // coordinates.

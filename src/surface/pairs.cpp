@@ -3,17 +3,12 @@
 // of the tile. When all tiles have counted theirs, they know where their lists go.
 #include "surface/pairs.hpp"
 
-#include "base/array.hpp"
-#include "base/bits.hpp"
 #include "base/room.hpp"
 #include "base/vectors.hpp"
-#include "surface/compare_boxes.hpp"
-#include "surface/lane_lists.hpp"
 #include "surface/suggest.hpp"
 
-#include <algorithm>
-#include <bit>
 #include <cmath>
+#include <numeric>
 
 namespace vox {
 
@@ -24,6 +19,17 @@ constexpr std::size_t least_tiles = 8; // that a worker takes at once
 
 unsigned lowest_lane(std::uint64_t lanes) noexcept { return static_cast<unsigned>(std::countr_zero(lanes)); }
 
+// Makes it as long as `count`. What was there is lost where there is no room, and else need not be set to 0
+// again.
+void make_room(Array<std::uint32_t>& vector, std::uint64_t count) {
+    if (count > vector.capacity()) {
+        vector.clear();
+        vector.shrink_to_fit();
+        reserve_exactly(vector, count + count / 16);
+    }
+    vector.resize(static_cast<std::size_t>(count));
+}
+
 } // namespace
 
 struct PairSearch::Task {
@@ -33,12 +39,6 @@ struct PairSearch::Task {
     bool same; // kind
     std::uint32_t first, count;
     std::uint64_t* ends; // of the list of each feature asked about; first, how long it is
-    QuantiseTile* quantise_tile;
-    QuantiseSides* quantise_sides;
-    CompareTiles* compare;
-    CompareFloats* compare_floats;
-    TurnBlocks* turn;
-    CullSome* cull;
 };
 
 // A tile of kind a as it is searched.
@@ -156,7 +156,7 @@ void PairSearch::cull_found(const Task& task, const TileSearch& tile, Worker& wo
             found[end].lanes = 0;
         }
         const std::size_t kept =
-            task.cull({worker.tile, batch.partners.data(), a.corner_count, b.corner_count, apart,
+            cull_some({worker.tile, batch.partners.data(), a.corner_count, b.corner_count, apart,
                        batch.pair_lanes.data(), batch.pair_partners.data(), count});
         worker.culled += count - kept;
         for (std::size_t i = 0; i < kept; ++i)
@@ -167,25 +167,14 @@ void PairSearch::cull_found(const Task& task, const TileSearch& tile, Worker& wo
     worker.count = static_cast<std::size_t>(end - found.begin());
 }
 
-// Makes it as long as `count`. What was there is lost where there is no room, and else need not be set to 0
-// again.
-void make_room(Array<std::uint32_t>& vector, std::uint64_t count) {
-    if (count > vector.capacity()) {
-        vector.clear();
-        vector.shrink_to_fit();
-        reserve_exactly(vector, count + count / 16);
-    }
-    vector.resize(static_cast<std::size_t>(count));
-}
-
-// Those of the lanes whose boxes overlap that of a slot of b: by the floats that bound them, and where these
-// cannot tell, as the caller's format has them.
+// Returns the lanes whose boxes overlap the box of a slot of b: floats that bound them decide, and where
+// these cannot tell, the caller's format.
 std::uint64_t PairSearch::overlapping(const Task& task, const TileSearch& tile, std::uint64_t lanes,
                                       std::uint32_t slot, Worker& worker) noexcept {
     const FeatureTiles &a = task.a, &b = task.b;
     const FloatOverlaps floats =
-        task.compare_floats(a.boxes_of(tile.first_slot / features_a_tile),
-                            b.boxes_of(slot / features_a_tile) + slot % features_a_tile, tile.close_by);
+        compare_floats(a.boxes_of(tile.first_slot / features_a_tile),
+                       b.boxes_of(slot / features_a_tile) + slot % features_a_tile, tile.close_by);
     lanes &= floats.lanes;
     if (!task.motion.doubles || (lanes & floats.close) == 0) return lanes;
     const ExactBox box(task.motion, b.corners_at(slot));
@@ -224,8 +213,8 @@ void PairSearch::add_near(const Task& task, const TileSearch& tile, std::uint32_
         wanted = wanted >> skipped << skipped;
     }
     TileOverlaps& overlaps = worker.overlaps;
-    task.quantise_sides(b.boxes_of(other), worker.quantised, worker.other);
-    const std::size_t found = task.compare(worker.quantised, tile.asked, worker.other, wanted, overlaps);
+    quantise_sides(b.boxes_of(other), worker.quantised, worker.other);
+    const std::size_t found = compare_tiles(worker.quantised, tile.asked, worker.other, wanted, overlaps);
     worker.boxes_compared += overlaps.compared;
     std::size_t count = worker.count;
     if (worker.near.size() < count + found) worker.near.resize(count + count / 2 + features_a_tile);
@@ -296,7 +285,7 @@ void PairSearch::search_tile(const Task& task, std::uint32_t t, Worker& worker) 
         for (int i = 0; i < 3; ++i) largest = std::max({largest, std::abs(box.lo[i]), std::abs(box.hi[i])});
         tile.close_by = largest * 0x1p-20f + 0x1p-140f;
     }
-    task.quantise_tile(a.boxes_of(t), box.lo, box.hi, tile.close_by, worker.quantised);
+    quantise_tile(a.boxes_of(t), box.lo, box.hi, tile.close_by, worker.quantised);
     worker.has_exact = 0;
 
     const auto for_each_corner = [&](auto&& visit) {
@@ -339,11 +328,27 @@ void PairSearch::keep_found(const Task& task, std::uint32_t tile, Worker& worker
         worker.kept_partners.push_back(worker.found[i].partner);
     }
     std::uint32_t counts[features_a_tile] = {};
-    task.turn(worker.kept.data() + first, blocks, counts);
+    turn_blocks(worker.kept.data() + first, blocks, counts);
     for (unsigned lane = 0; lane < features_a_tile; ++lane)
         if (const std::uint32_t f = task.a.features[tile * features_a_tile + lane] - task.first;
             f < task.count)
             task.ends[f] = counts[lane];
+}
+
+void PairSearch::write_found(const Task& task, std::size_t tile, FeaturePairs& out) {
+    const TileFound& of = found_of_[tile];
+    if (of.count == 0) return;
+    std::uint32_t *lists[features_a_tile], counts[features_a_tile];
+    for (unsigned lane = 0; lane < features_a_tile; ++lane) {
+        const std::uint32_t f = task.a.features[tile * features_a_tile + lane] - task.first;
+        lists[lane] = nullptr;
+        if (f >= task.count) continue; // nor an empty lane
+        lists[lane] = out.partners.data() + out.offsets[f];
+        counts[lane] = static_cast<std::uint32_t>(out.offsets[f + 1] - out.offsets[f]);
+    }
+    const Worker& worker = workers_[of.worker];
+    write_lists(worker.kept.data() + of.first_word, (of.count + partners_a_block - 1) / partners_a_block,
+                worker.kept_partners.data() + of.first_partner, lists, counts);
 }
 
 void PairSearch::run(const SurfaceTopology& topology, const SurfaceMotion& motion, vox_feature a,
@@ -362,6 +367,7 @@ void PairSearch::run(const SurfaceTopology& topology, const SurfaceMotion& motio
     grid_.fill(tiles_b.tile_boxes, cell_size > 0 ? cell_size : choose_cell_size(a, b));
     counters_.cells = grid_.occupied();
 
+    const Task task{topology, motion, tiles_a, tiles_b, a == b, first, count, out.offsets.data() + 1};
     workers_.grow(workers.count());
     for (Worker& worker : workers_) {
         worker.seen.assign(tiles_b.tile_count(), 0u);
@@ -372,20 +378,6 @@ void PairSearch::run(const SurfaceTopology& topology, const SurfaceMotion& motio
         worker.tile_pairs = worker.boxes_compared = worker.culled = 0;
     }
     found_of_.resize(tiles_a.tile_count());
-    const Task task{.topology = topology,
-                    .motion = motion,
-                    .a = tiles_a,
-                    .b = tiles_b,
-                    .same = a == b,
-                    .first = first,
-                    .count = count,
-                    .ends = out.offsets.data() + 1,
-                    .quantise_tile = quantise_tile(),
-                    .quantise_sides = quantise_sides(),
-                    .compare = compare_tiles(),
-                    .compare_floats = compare_floats(),
-                    .turn = turn_blocks(),
-                    .cull = cull_some()};
     workers.for_ranges(tiles_a.tile_count(), least_tiles,
                        [&](std::size_t begin, std::size_t end, std::uint32_t w) {
                            Worker& worker = workers_[w];
@@ -402,30 +394,13 @@ void PairSearch::run(const SurfaceTopology& topology, const SurfaceMotion& motio
         counters_.boxes_compared += worker.boxes_compared;
         counters_.culled += worker.culled;
     }
-    for (std::uint32_t i = 0; i < count; ++i) out.offsets[i + 1] += out.offsets[i];
+    std::partial_sum(out.offsets.begin(), out.offsets.end(), out.offsets.begin());
     counters_.overlaps = out.offsets[count] + counters_.culled;
     make_room(out.partners, out.offsets[count]);
-    WriteLists* const write = write_lists();
-    workers.for_ranges(
-        tiles_a.tile_count(), least_tiles, [&](std::size_t begin, std::size_t end, std::uint32_t) {
-            std::uint32_t *lists[features_a_tile], counts[features_a_tile];
-            for (std::size_t t = begin; t < end; ++t) {
-                const TileFound& of = found_of_[t];
-                if (of.count == 0) continue;
-                const std::size_t first_slot = t * features_a_tile;
-                for (unsigned lane = 0; lane < features_a_tile; ++lane) {
-                    const std::uint32_t f = tiles_a.features[first_slot + lane] - first;
-                    lists[lane] = nullptr;
-                    if (f >= count) continue; // nor an empty lane
-                    lists[lane] = out.partners.data() + out.offsets[f];
-                    counts[lane] = static_cast<std::uint32_t>(out.offsets[f + 1] - out.offsets[f]);
-                }
-                const Worker& worker = workers_[of.worker];
-                write(worker.kept.data() + of.first_word,
-                      (of.count + partners_a_block - 1) / partners_a_block,
-                      worker.kept_partners.data() + of.first_partner, lists, counts);
-            }
-        });
+    workers.for_ranges(tiles_a.tile_count(), least_tiles,
+                       [&](std::size_t begin, std::size_t end, std::uint32_t) {
+                           for (std::size_t t = begin; t < end; ++t) write_found(task, t, out);
+                       });
     workers_.level();
 }
 

@@ -85,8 +85,7 @@ private:
     }
 };
 
-// What the searches of a surface that stands still do with their cells: edges with edges, faces with
-// vertices.
+// The cost of the searches of a surface that stands still: edges with edges, faces with vertices.
 class SurfaceModel {
 public:
     SurfaceModel(std::span<const Body> bodies, std::pmr::memory_resource* memory)

@@ -15,9 +15,9 @@ namespace vox {
 vox_cell_size_result suggest_for_tiles(const FeatureTiles& a, const FeatureTiles& b,
                                        std::pmr::memory_resource* memory);
 
-// What VOX_COST_MODEL_SURFACE suggests: for the surfaces of all bodies as one
-// surface, asked for pairs of edges, and of faces and vertices. Throws INVALID_ARGUMENT where there is none,
-// or all of it is in one place.
+// VOX_COST_MODEL_SURFACE: suggests a cell size for the surfaces of all bodies as one, asked for pairs of
+// edges, and of faces and vertices. Throws INVALID_ARGUMENT where there is none, or all of it is in one
+// place.
 vox_cell_size_result suggest_for_surfaces(const vox_cell_size_desc& desc, CellSizeScene& scene);
 
 } // namespace vox

@@ -1,34 +1,13 @@
 #include "surface/surface.hpp"
 
-#include "base/array.hpp"
 #include "base/error.hpp"
 #include "base/llu.hpp"
 #include "mesh/check.hpp"
 #include "surface/suggest.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 using namespace vox;
-
-namespace {
-
-// The middle of positions, in coordinates where it is many sizes away from zero; else zero.
-Vec3d far_middle(std::span<const Vec3d> positions) noexcept {
-    constexpr double far = 16;
-    Vec3d lo = positions[0], hi = lo;
-    for (const Vec3d& p : positions) {
-        lo = min(lo, p);
-        hi = max(hi, p);
-    }
-    const auto middle = [](double low, double high) {
-        const double at = 0.5 * low + 0.5 * high;
-        return std::abs(at) > far * (high - low) ? at : 0;
-    };
-    return {middle(lo.x, hi.x), middle(lo.y, hi.y), middle(lo.z, hi.z)};
-}
-
-} // namespace
 
 vox_surface::vox_surface(const vox_surface_desc& desc, const MemoryShare& memory)
     : share_(memory), workers_(value_of(desc.tasks), desc.worker_count), topology_(desc, &*memory),
@@ -70,7 +49,14 @@ void vox_surface::move(const vox_motion& motion) {
     if (motion.to.data) copy(to, positions_[1]);
     motion_ = {positions_[0], motion.to.data ? positions_[1] : positions_[0], motion.radius, from.doubles,
                (motion.flags & VOX_MOTION_CULL) != 0};
-    if (from.doubles && count > 0) motion_.origin = far_middle(positions_[0]);
+    if (from.doubles && count > 0) {
+        Vec3d lo = positions_[0][0], hi = lo;
+        for (const Vec3d& p : positions_[0]) {
+            lo = min(lo, p);
+            hi = max(hi, p);
+        }
+        motion_.origin = far_middle(lo, hi, 16);
+    }
     has_motion_ = true;
     search_.forget_boxes();
     piece_ = {};

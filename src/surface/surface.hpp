@@ -48,8 +48,8 @@ public:
             visit(vox::Candidates{topology_, motion, a, b, candidates_});
         }
     }
-    // Those of features first, first + 1, ..., count of them or as many as fit into the byte budget, at least
-    // one, for the motion that is set; the answer lives until the next call or move().
+    // The partners of features first, first + 1, ... for the motion that is set: of `count`, or as many as
+    // fit into the byte budget, at least one. They live until the next call or move().
     const vox::FeaturePairs& pairs(vox_feature a, vox_feature b, std::uint64_t first, std::uint64_t count);
 
     // Throws as vox_surface_suggest_cell_size.
@@ -61,9 +61,9 @@ public:
     std::span<const vox_proximity> proximities(vox_feature a, vox_feature b, double distance);
     // Throws as vox_surface_find_clearances.
     void clearances(double max_distance, double* out_distances);
-    // Those of two kinds; they live until the next call or move().
+    // Impacts of two kinds; they live until the next call or move().
     std::span<const vox_impact> impacts(vox_feature a, vox_feature b, const vox::ContactTimeRule& rule);
-    // Those at the end of the motion. They live until the next call or move().
+    // Crossings at the end of the motion. They live until the next call or move().
     std::span<const vox_crossing> crossings();
 
     vox_counter_view counters() const;

@@ -46,8 +46,8 @@ void TileGrid::fill(std::span<const Box> boxes, double cell_size) {
     box_count_ = static_cast<std::uint32_t>(boxes.size());
     const double most = most_cells_a_box * static_cast<double>(boxes.size()) + 1024;
     double in_all;
-    for (cell_size_ = cell_size;; cell_size_ *= 2) {
-        per_length_ = std::min(1 / cell_size_, 0x1p1000);
+    for (;; cell_size *= 2) {
+        per_length_ = std::min(1 / cell_size, 0x1p1000);
         in_all = 0;
         large_.clear();
         std::size_t endless = 0;
@@ -61,7 +61,7 @@ void TileGrid::fill(std::span<const Box> boxes, double cell_size) {
                 endless += !has_ends(boxes[i]);
             }
         }
-        if ((in_all <= most && large_.size() - endless <= few_large) || cell_size_ > 1e300) break;
+        if ((in_all <= most && large_.size() - endless <= few_large) || cell_size > 1e300) break;
     }
     const std::uint32_t buckets =
         std::bit_ceil(static_cast<std::uint32_t>(std::clamp(2 * in_all, 2.0, most_buckets)));

@@ -21,7 +21,6 @@ public:
     void fill(std::span<const Box> boxes, double cell_size);
 
     std::uint64_t occupied() const noexcept { return occupied_; } // cells that hold something
-    std::uint64_t entries() const noexcept { return entries_.size(); }
 
     // Calls visit(i) for every box that may overlap `box`, some of them more than once, and for others too.
     template <class Visit>
@@ -54,7 +53,7 @@ private:
     Range range_of(const Box& box) const noexcept;
     std::uint32_t bucket_of(std::int64_t x, std::int64_t y, std::int64_t z) const noexcept;
 
-    double cell_size_ = 0, per_length_ = 0;
+    double per_length_ = 0;
     std::uint32_t box_count_ = 0;
     std::uint64_t occupied_ = 0;
     unsigned shift_ = 63; // of a hash to a bucket

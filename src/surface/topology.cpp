@@ -1,6 +1,5 @@
 #include "surface/topology.hpp"
 
-#include "base/array.hpp"
 #include "base/error.hpp"
 
 #include <algorithm>
@@ -10,12 +9,6 @@
 namespace vox {
 
 namespace {
-
-void check_count(std::uint64_t count, const char* name) {
-    if (count > VOX_MAX_FEATURES)
-        throw Error(VOX_ERROR_LIMIT,
-                    format("%s is %" PRIu64 ", the limit is %u", name, count, VOX_MAX_FEATURES));
-}
 
 template <std::size_t corners>
 void copy_features(const std::uint32_t* from, std::uint64_t count, std::uint32_t vertex_count,
@@ -30,7 +23,7 @@ void copy_features(const std::uint32_t* from, std::uint64_t count, std::uint32_t
                             format("%s %zu names vertex %u of %u", name, i, v, vertex_count));
 }
 
-// Each edge of a face once, lower vertex first, ascending.
+// Lists each edge of a face once, lower vertex first, ascending.
 void list_edges(std::span<const SurfaceFace> faces, Array<SurfaceEdge>& out) {
     Array<std::uint64_t> keys(out.memory());
     keys.reserve(3 * faces.size());
@@ -54,9 +47,9 @@ void list_edges(std::span<const SurfaceFace> faces, Array<SurfaceEdge>& out) {
 SurfaceTopology::SurfaceTopology(const vox_surface_desc& desc, std::pmr::memory_resource* memory)
     : edges(memory), faces(memory), patches(memory), patch_filters(memory) {
     if (desc.vertex_count == 0) refuse("vertex_count is 0, expected at least one vertex");
-    check_count(desc.vertex_count, "vertex_count");
-    check_count(desc.edge_count, "edge_count");
-    check_count(desc.face_count, "face_count");
+    check_limit(desc.vertex_count, VOX_MAX_FEATURES, "vertex_count");
+    check_limit(desc.edge_count, VOX_MAX_FEATURES, "edge_count");
+    check_limit(desc.face_count, VOX_MAX_FEATURES, "face_count");
     if (desc.face_count > 0) require(desc.faces, "faces");
     if (desc.edge_count > 0) require(desc.edges, "edges");
     vertex_count = static_cast<std::uint32_t>(desc.vertex_count);
@@ -72,9 +65,7 @@ SurfaceTopology::SurfaceTopology(const vox_surface_desc& desc, std::pmr::memory_
         return;
     }
     if (desc.patch_count == 0) refuse("patch_count is 0, but patches is not null");
-    if (desc.patch_count > VOX_MAX_PATCHES)
-        throw Error(VOX_ERROR_LIMIT,
-                    format("patch_count is %" PRIu64 ", the limit is %u", desc.patch_count, VOX_MAX_PATCHES));
+    check_limit(desc.patch_count, VOX_MAX_PATCHES, "patch_count");
     for (std::uint32_t v = 0; v < vertex_count; ++v)
         if (desc.patches[v] >= desc.patch_count)
             refuse(format("vertex %u is in patch %u of %" PRIu64, v, desc.patches[v], desc.patch_count));

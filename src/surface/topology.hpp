@@ -1,4 +1,4 @@
-// What a surface consists of, and which of its vertices may meet.
+// The parts of a surface, and which of its vertices may meet.
 #pragma once
 
 #include "base/array.hpp"
@@ -34,7 +34,7 @@ struct SurfaceTopology {
     }
 
     bool has_patches() const noexcept { return !patches.empty(); }
-    // Whether some vertex of one and some vertex of the other may meet.
+    // True if some vertex of one and some vertex of the other may meet.
     bool may_meet(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) const noexcept;
 
     struct Patch {

@@ -2,7 +2,6 @@
 // with any instruction set, and whatever positions the tree was fitted to before.
 #include "base/vectors.hpp"
 #include "depth/closest.hpp"
-#include "depth/points.hpp"
 #include "exact/closest_point.hpp"
 #include "internal/prepared_mesh.hpp"
 #include "internal/scenes.hpp"

@@ -1,7 +1,6 @@
 // Tests each part of the depth stage by itself: topology, the walk out of a mesh, normals.
 #include "base/vectors.hpp"
 #include "depth/normals.hpp"
-#include "depth/points.hpp"
 #include "depth/walk.hpp"
 #include "internal/prepared_mesh.hpp"
 #include "internal/scenes.hpp"
@@ -151,7 +150,7 @@ START_TEST(walks_leave_where_the_segment_does) {
     Random random{std::uint64_t(_i) + 1};
     Mesh box = kuhn_block(5, 5, 5, {0, 0, 0}, 1);
     for (Vec3f& v : box.positions)
-        if (!outside_box(vec(v) - Vec3d{0.5, 0.5, 0.5}, 4)) // an inner vertex
+        if (!outside_box(Vec3d(v) - Vec3d{0.5, 0.5, 0.5}, 4)) // an inner vertex
             v = {v.x + random.uniform(-0.15, 0.15), v.y + random.uniform(-0.15, 0.15),
                  v.z + random.uniform(-0.15, 0.15)};
     if (_i % 2) // wind all the other way, or every third
@@ -251,7 +250,7 @@ START_TEST(normals_on_a_sphere) {
     // them.
     Mesh ball = kuhn_block(12, 12, 12, {-1, -1, -1}, 2.0 / 12);
     for (Vec3f& v : ball.positions) {
-        const double most = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}), l = length(vec(v));
+        const double most = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}), l = length(Vec3d(v));
         const double s = l > 0 ? most / l : 0;
         v = {float(s * double{v.x}), float(s * double{v.y}), float(s * double{v.z})};
     }

@@ -43,10 +43,10 @@ std::vector<Walk> some_walks(Random& random, const Mesh& mesh, std::size_t count
         const std::uint32_t* v = mesh.tets[walk.tet].v;
         double weight[4], sum = 0;
         for (double& w : weight) sum += w = double(1 + random.below(4));
-        for (std::size_t i = 0; i < 4; ++i) walk.p = walk.p + weight[i] / sum * vec(mesh.positions[v[i]]);
-        if (random.below(8) == 0) walk.p = vec(mesh.positions[v[random.below(4)]]); // at a corner
+        for (std::size_t i = 0; i < 4; ++i) walk.p = walk.p + weight[i] / sum * Vec3d(mesh.positions[v[i]]);
+        if (random.below(8) == 0) walk.p = Vec3d(mesh.positions[v[random.below(4)]]); // at a corner
         const auto any = [&] { return double{random.uniform(-6, 10)}; };
-        const Vec3d corner = vec(mesh.positions[random.below(std::uint32_t(mesh.positions.size()))]);
+        const Vec3d corner = Vec3d(mesh.positions[random.below(std::uint32_t(mesh.positions.size()))]);
         switch (random.below(5)) {
         case 0: // through a vertex, and beyond
             walk.q = walk.p + 8.0 * (corner - walk.p);

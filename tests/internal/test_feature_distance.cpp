@@ -60,7 +60,7 @@ double size_of(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
     double size = 0;
     for (const auto* corners : {&a, &b})
         for (const Vec3d& v : *corners)
-            size = std::max(size, largest_number({v.x - b[0].x, v.y - b[0].y, v.z - b[0].z}));
+            size = std::max(size, largest_coordinate({v.x - b[0].x, v.y - b[0].y, v.z - b[0].z}));
     return size;
 }
 

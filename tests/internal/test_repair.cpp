@@ -6,7 +6,7 @@
 #include "base/lists.hpp"
 #include "mesh/filter.hpp"
 #include "mesh/tet_changes.hpp"
-#include "mesh/tile_repair.hpp"
+#include "mesh/tiled_mesh.hpp"
 #include "mesh/topology.hpp"
 
 #include <array>

@@ -3,7 +3,6 @@
 // surface and winding numbers in test_winding.cpp.
 #include "fast/stream.hpp"
 #include "internal/stage_checks.hpp"
-#include "mesh/highest_index.hpp"
 
 #include <cfloat>
 #include <limits>
@@ -224,31 +223,10 @@ START_TEST(blocks_end_at_jumps) {
 }
 END_TEST
 
-// ---- indices --------------------------------------------------------------------------------------
-
-// Wherever it is, in lists shorter and longer than registers, also where it is beyond what a signed number
-// holds.
-START_TEST(highest_indices) {
-    at_each_level([](const char* level) {
-        for (std::size_t count = 0; count <= 200; ++count) {
-            std::vector<std::uint32_t> list(count, 7);
-            ck_assert_uint_eq(highest_index(list.data(), count), count == 0 ? 0 : 7);
-            for (std::uint32_t& index : list)
-                for (const std::uint32_t highest : {8u, 0x80000000u, 0xffffffffu}) {
-                    index = highest;
-                    ck_assert_msg(highest_index(list.data(), count) == highest, "%s: %u at %td of %zu", level,
-                                  highest, &index - list.data(), count);
-                    index = 7;
-                }
-        }
-    });
-}
-END_TEST
-
 } // namespace
 
 SUITE(stages) {
     TCase* tests = add_case(suite, "stages");
     tcase_add_each(tests, tiles_hold_every_tet_once, tiles_are_full_and_compact, stream_finds_the_boxes,
-                   stream_sees_what_is_not_finite, blocks_end_at_jumps, highest_indices);
+                   stream_sees_what_is_not_finite, blocks_end_at_jumps);
 }

@@ -2,9 +2,8 @@
 // against boxes of floats, lists of partners against loops, numbers sorted by counting.
 #include "base/simd.hpp"
 #include "internal/random.hpp"
-#include "surface/compare_boxes.hpp"
-#include "surface/lane_lists.hpp"
-#include "surface/listed_features.hpp"
+#include "surface/lanes.hpp"
+#include "surface/pairs.hpp"
 
 #include <algorithm>
 #include <array>
@@ -78,10 +77,10 @@ START_TEST(boxes_in_quanta) {
             simd::force_level(simd::Level(level));
             QuantisedTile tile;
             TileOverlaps found{};
-            quantise_tile()(a.boxes, a.low, a.high, close_by, tile);
+            quantise_tile(a.boxes, a.low, a.high, close_by, tile);
             QuantisedSides other;
-            quantise_sides()(b.boxes, tile, other);
-            const std::size_t count = compare_tiles()(tile, asked, other, wanted, found);
+            quantise_sides(b.boxes, tile, other);
+            const std::size_t count = compare_tiles(tile, asked, other, wanted, found);
             if (level > 0) {
                 ck_assert_uint_eq(count, first_count);
                 ck_assert_uint_eq(found.compared, first.compared);
@@ -151,7 +150,7 @@ START_TEST(lists_of_lanes) {
             simd::force_level(simd::Level(level));
             std::vector<std::uint64_t> turned = words;
             std::array<std::uint32_t, partners_a_block> counts{};
-            turn_blocks()(turned.data(), blocks, counts.data());
+            turn_blocks(turned.data(), blocks, counts.data());
             std::vector<std::uint32_t> out;
             std::array<std::size_t, partners_a_block> first;
             for (std::size_t lane = 0; lane < partners_a_block; ++lane) {
@@ -163,7 +162,7 @@ START_TEST(lists_of_lanes) {
             std::array<std::uint32_t*, partners_a_block> lists;
             for (std::size_t lane = 0; lane < partners_a_block; ++lane)
                 lists[lane] = skipped >> lane & 1 ? nullptr : out.data() + first[lane];
-            write_lists()(turned.data(), blocks, partners.data(), lists.data(), counts.data());
+            write_lists(turned.data(), blocks, partners.data(), lists.data(), counts.data());
             for (std::size_t lane = 0; lane < partners_a_block; ++lane) {
                 const bool is_skipped = skipped >> lane & 1;
                 for (std::size_t i = 0; i < expected[lane].size(); ++i)

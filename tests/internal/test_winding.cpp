@@ -326,9 +326,12 @@ Checked check_certificate(const Mesh& prepared, const Mesh& mesh, double cell_si
         const std::vector<Box> supers = super_boxes_of(mesh, tiles);
         const std::vector<std::uint8_t> upright(supers.size());
         const std::vector<float> unknown(supers.size(), float_infinity);
-        const fast::WindingBody body{tiles,          surface,      packed(mesh),  vertex_count(mesh),
-                                     box_of(mesh),   cell_size,    supers.data(), unknown.data(),
-                                     upright.data(), boxes.data(), known.data(),  turning,
+        const fast::WindingBody body{{tiles, surface, packed(mesh), vertex_count(mesh), false, 0,
+                                      unknown.data(), upright.data(), boxes.data(), known.data()},
+                                     box_of(mesh),
+                                     cell_size,
+                                     supers.data(),
+                                     turning,
                                      nullptr};
         checked.certified = fast::certify(body, certificate, exact_tests);
         if (!checked.certified) return;

@@ -24,7 +24,6 @@
 // Tets that are not positive, or not certainly so, make every cell of their box unsafe. They do not count
 // elsewhere.
 #include "fast/winding/certificate.hpp"
-#include "base/array.hpp"
 #include "base/simd.hpp"
 
 #include "base/parallel.hpp"
@@ -33,6 +32,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #undef VOX_SOURCE
 #define VOX_SOURCE "fast/winding/certificate.cpp"
@@ -120,7 +120,7 @@ void Facing(TriangleBatch& batch, std::size_t count, const WindowLattice& lattic
         }
         const V minus_bound = hn::Neg(bound);
         const V xpy = hn::Add(n[0], n[1]), xmy = hn::Sub(n[0], n[1]);
-        // In the order of `directions`.
+        // They are in the order of `directions`.
         const V sums[13] = {n[0],
                             n[1],
                             n[2],
@@ -152,6 +152,57 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace vox::fast {
+
+// While runs are joined, `component` is the index of another run of the same component, a lower one, or of
+// the run itself.
+std::uint32_t Components::root(std::uint32_t run) noexcept {
+    while (runs[run].component != run) {
+        runs[run].component = runs[runs[run].component].component; // halves the path for the next search
+        run = runs[run].component;
+    }
+    return run;
+}
+
+// Joins the runs of a row with those runs of another one that they touch; its cells have indices lower by
+// `cells_between`.
+void Components::join(std::uint32_t row, std::uint32_t other, std::uint32_t cells_between) noexcept {
+    std::uint32_t i = rows[row], j = rows[other];
+    while (i < runs.size() && j < rows[other + 1]) {
+        const std::uint32_t first = runs[j].first + cells_between, end = runs[j].end + cells_between;
+        if (first < runs[i].end && runs[i].first < end) {
+            std::uint32_t a = root(i), b = root(j);
+            if (a < b) std::swap(a, b);
+            runs[a].component = b;
+        }
+        if (end < runs[i].end)
+            ++j;
+        else
+            ++i;
+    }
+}
+
+void Components::find(const std::uint32_t* values, std::uint32_t wanted, const std::uint32_t (&cells)[3]) {
+    const std::uint32_t nx = cells[0], ny = cells[1];
+    runs.clear();
+    rows.clear();
+    rows.push_back(0);
+    for (std::uint32_t row = 0; row < ny * cells[2]; ++row) {
+        const std::uint32_t end = (row + 1) * nx;
+        for (std::uint32_t c = row * nx; c < end; ++c) {
+            if (values[c] != wanted) continue;
+            const std::uint32_t first = c;
+            while (c < end && values[c] == wanted) ++c;
+            runs.push_back({first, c, static_cast<std::uint32_t>(runs.size())});
+        }
+        if (row % ny) join(row, row - 1, nx);
+        if (row >= ny) join(row, row - ny, nx * ny);
+        rows.push_back(static_cast<std::uint32_t>(runs.size()));
+    }
+    // A root comes before all other runs of its component, so its number is set before theirs.
+    count = 0;
+    for (std::uint32_t i = 0; i < runs.size(); ++i)
+        runs[i].component = runs[i].component == i ? count++ : runs[runs[i].component].component;
+}
 
 namespace {
 
@@ -202,7 +253,7 @@ private:
         if (!worthwhile()) return false;
         out_.bad.resize(body_.tiles.tiles.size());
         oriented_ = true;
-        orient_tets();
+        orient(body_, body_.orientation, out_.bad.data(), body_.workers);
         bool any_bad = false;
         if (!mark_bad_tets(any_bad)) return false;
         bool as_assumed = !any_bad;
@@ -230,16 +281,6 @@ private:
             corners[c] = tiles.vertices[tiles.tiles[tile].first_vertex +
                                         tiles.corners[(tile * 4 + c) * tile_size + tet]];
         return corners;
-    }
-
-    // Finds the tets that are not certainly positive, among those that may have turned over.
-    void orient_tets() {
-        const OrientedBody oriented{body_.tiles,        body_.boundary,
-                                    body_.positions,    body_.vertex_count,
-                                    body_.rounded,      body_.rounded ? slack_of_rounding(body_.box) : 0,
-                                    body_.super_change, body_.super_positive,
-                                    body_.tile_boxes,   body_.tile_known};
-        orient(oriented, body_.orientation, out_.bad.data(), body_.workers);
     }
 
     // Intersects the sets of some cells with `set`. False when that becomes too much work.
@@ -336,7 +377,7 @@ private:
         const Tiles& tiles = body_.tiles;
         std::size_t bad = 0;
         for (std::uint32_t s = 0; s < tiles.super_tile_count(); ++s) {
-            if (body_.super_positive[s]) continue; // it has none
+            if (body_.positive[s]) continue; // it has none
             for (std::uint32_t t = tiles.super_first[s]; t < tiles.super_first[s + 1]; ++t)
                 for (std::uint64_t left = out_.bad[t]; left; left &= left - 1) {
                     const Vertices corners =

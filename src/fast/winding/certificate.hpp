@@ -3,7 +3,6 @@
 #pragma once
 
 #include "base/array.hpp"
-#include "fast/winding/components.hpp"
 #include "fast/winding/orientation.hpp"
 #include "fast/window.hpp"
 #include "mesh/boundary.hpp"
@@ -29,7 +28,7 @@ struct CertifiedCells {
     Array<std::uint8_t> certified; // of each cell, 1 or 0; and `run` more, to read so many at once
     bool complete = false;         // whether all cells are certified
 
-    // Whether all cells that meet `box` are certified; false as well where they are too many to look at.
+    // True if all cells that meet `box` are certified; false as well where they are too many to look at.
     bool holds(const Box& box) const noexcept {
         static constexpr std::uint8_t ones[2 * run] = {1, 1, 1, 1, 1, 1, 1, 1};
         constexpr std::uint32_t few = 16; // vertices of such a block are looked up one by one
@@ -54,6 +53,31 @@ struct CertifiedCells {
     }
 };
 
+// The connected components of some cells of a lattice, where cells are connected through facets.
+//
+// Runs are maximal rows of such cells along x; there are two to three orders of magnitude fewer of them than
+// of cells. Each run is joined with those next to it in the row before and in the layer before (A. Rosenfeld,
+// J. L. Pfaltz, Sequential operations in digital picture processing, J. ACM 13, 1966; joined as in R. E.
+// Tarjan, Efficiency of a good but not linear set union algorithm, J. ACM 22, 1975).
+struct Components {
+    explicit Components(std::pmr::memory_resource* memory) noexcept : runs(memory), rows(memory) {}
+
+    struct Run {
+        std::uint32_t first, end; // cells, x fastest
+        std::uint32_t component;  // numbered in the order of their first cells
+    };
+    Array<Run> runs;           // in the order of their cells
+    Array<std::uint32_t> rows; // of each row its first run, and the end
+    std::uint32_t count = 0;
+
+    // Finds the components of the cells with values[cell] == wanted.
+    void find(const std::uint32_t* values, std::uint32_t wanted, const std::uint32_t (&cells)[3]);
+
+private:
+    std::uint32_t root(std::uint32_t run) noexcept;
+    void join(std::uint32_t row, std::uint32_t other, std::uint32_t cells_between) noexcept;
+};
+
 // The cells, and what it takes to certify them.
 struct Certificate : CertifiedCells {
     explicit Certificate(std::pmr::memory_resource* memory)
@@ -66,23 +90,12 @@ struct Certificate : CertifiedCells {
     auto buffers() { return std::tie(directions, touched, bad, components.runs, components.rows, certified); }
 };
 
-struct WindingBody {
-    const Tiles& tiles;
-    const Boundary& boundary;
-    const float* positions; // packed
-    std::uint32_t vertex_count;
+struct WindingBody : OrientedBody { // rounded: its positions are those in `exact` less `origin`
     Box box;
-    double cell_size;                   // of the lattice
-    const Box* super_boxes;             // boxes that hold the super-tiles
-    const float* super_change;          // see track_orientation()
-    const std::uint8_t* super_positive; // whether all tets of a super-tile are known to be positive
-    Box* tile_boxes;                    // boxes that are needed are made
-    std::uint8_t* tile_known;
+    double cell_size;              // of the lattice
+    const Box* super_boxes;        // boxes that hold the super-tiles
     OrientationCache& orientation; // renewed where that pays
     Workers* workers;              // not null: share the pass over the tiles, as one task
-    // Whether the packed positions are those in `exact` less `origin`, rounded to floats; else they are
-    // exact.
-    bool rounded = false;
     Vec3d origin{};
     Positions exact{};
 };

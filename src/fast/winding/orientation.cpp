@@ -46,7 +46,7 @@ HWY_INLINE V Width(const V* e1, const V* e2, const V* e3, const V* n23, V longes
 
 // The corners of tets of a tile, one tet in each lane.
 #if HWY_TARGET == HWY_AVX3
-// From tables in registers.
+// Coordinates come from tables in registers.
 class TileCorners {
 public:
     using Buffer = TileVertices;
@@ -112,7 +112,7 @@ HWY_INLINE float OrientTile(const Tiles& tiles, const Boundary& boundary, const 
     TileCorners::Buffer buffer;
     TileCorners::Read(tiles, positions, tile, buffer, box);
     const TileCorners corner(buffer);
-    const std::uint8_t* corners = tiles.corners.data() + std::size_t{t} * 4 * tile_size;
+    const std::uint8_t* corners = tiles.corners_of(t);
     const FilterConstants constants = MakeConstants(box, rounded);
     const std::uint64_t counted = tile.all_tets() & ~boundary.ignored.data()[t];
     std::uint64_t not_positive = 0, not_negative = 0;
@@ -300,7 +300,7 @@ void orient_super(const OrientedBody& body, std::uint32_t super, const Orientati
     }
 }
 
-// Whether a super-tile is to be measured. Tiles with tets far flatter than the others would soon fail again.
+// True if a super-tile is to be measured. Tiles with tets far flatter than the others would soon fail again.
 bool wants_reference(const OrientedBody& body, std::uint32_t super, OrientationCache& cache) noexcept {
     if (body.positive[super]) return false;
     Shape& shape = cache.shapes[super];

@@ -18,7 +18,7 @@ class Workers;
 
 namespace vox::fast {
 
-// What is kept of a body from step to step.
+// Kept of a body from step to step.
 struct OrientationCache {
     explicit OrientationCache(std::pmr::memory_resource* memory) noexcept
         : points(memory), shapes(memory), slack(memory) {}
@@ -50,7 +50,7 @@ void track_orientation(const Tiles& tiles, const OrientationCache& cache, const 
                        const Box* blocks, float rounding, std::uint32_t first, std::uint32_t last,
                        Box* super_boxes, float* change, std::uint8_t* positive);
 
-// The same for all bodies that moved and that winding numbers may be of use for (StepBody::boundary).
+// Tracks all bodies that moved and that winding numbers may be of use for (StepBody::boundary).
 void track_orientation(Step& step, StepBoxes& boxes);
 
 // A body whose tets are to be oriented.
@@ -71,12 +71,12 @@ struct OrientedBody {
 // positive nor found so by the float filter (narrow-inl.hpp). Measures super-tiles anew where that pays.
 void orient(const OrientedBody& body, OrientationCache& cache, std::uint64_t* bad, Workers* workers);
 
-// Of one tile: its box, that set, and a lower bound on the widths of its tets, of their rounded positions; 0
-// when a tet is in the set.
+// Makes the box of a tile and that set. Returns a lower bound on the widths of its tets, of their rounded
+// positions; 0 when a tet is in the set.
 float measure_tile(const Tiles& tiles, const Boundary& boundary, const float* positions, bool rounded,
                    std::uint32_t tile, Box& box, std::uint64_t& bad);
 
-// Whether to measure a super-tile anew, of whose tiles so many could not be followed; `flat` are those that
+// True if to measure a super-tile anew, of whose tiles so many could not be followed; `flat` are those that
 // hardly can be, as they were too flat in the reference step. Called once in each step in which not all tiles
 // are positive.
 bool wants_reference(Shape& shape, std::uint32_t failed, std::uint32_t flat, std::uint32_t tiles,

@@ -1,5 +1,4 @@
 #include "fast/winding/shape.hpp"
-#include "base/array.hpp"
 #include "base/simd.hpp"
 
 #include <algorithm>
@@ -151,14 +150,14 @@ namespace {
 // A symmetric matrix with entries {xx, yy, zz, xy, yz, zx}, known up to roundings of doubles.
 using Symmetric = std::array<double, 6>;
 
-// Of c - l: two leading minors, the determinant, and the sum of all three minors of two rows.
+// Two leading minors of c - l, its determinant, and the sum of all three minors of two rows.
 std::array<double, 4> minors(const Symmetric& c, double l) noexcept {
     const double x = c[0] - l, y = c[1] - l, z = c[2] - l;
     const double xy = x * y - c[3] * c[3], yz = y * z - c[4] * c[4], zx = z * x - c[5] * c[5];
     return {x, xy, x * yz - c[3] * (c[3] * z - c[4] * c[5]) + c[5] * (c[3] * c[4] - y * c[5]), xy + yz + zx};
 }
 
-// Whether all eigenvalues are certainly above `l`: the leading minors of c - l are positive, by far more than
+// True if all eigenvalues are certainly above `l`: the leading minors of c - l are positive, by far more than
 // their errors of a few 2^-53 of a power of the trace.
 bool is_above(const Symmetric& c, double l) noexcept {
     const double trace = c[0] + c[1] + c[2];

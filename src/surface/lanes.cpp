@@ -8,14 +8,16 @@
 // was clamped. Clamping only brings x and y closer to each other here: it could raise x if x were below 0, or
 // lower y if y were above 32767, but the tile's own numbers are from 8 to 32760, and then the difference
 // would be negative.
-#include "surface/compare_boxes.hpp"
+#include "surface/lanes.hpp"
 #include "base/boxes.hpp"
+#include "base/prefetch.hpp"
 #include "base/simd.hpp"
 
 #undef VOX_SOURCE
-#define VOX_SOURCE "surface/compare_boxes.cpp"
+#define VOX_SOURCE "surface/lanes.cpp"
 #include "base/each_target.hpp"
 
+#include "base/compress-inl.hpp"
 #include "base/lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -48,7 +50,7 @@ void Quantise(const float* HWY_RESTRICT boxes, const QuantisedTile& tile, Quanti
     }
 }
 
-// Does so for one number.
+// Quantises one number.
 HWY_INLINE std::int16_t QuantiseNumber(float x, float low, float per_quantum) {
     const float q = (x - low) * per_quantum + quanta_below, above = q > 0 ? q : 0;
     return static_cast<std::int16_t>((above < most_quanta ? above : most_quanta) + units - units);
@@ -145,6 +147,68 @@ FloatOverlaps CompareBox(const float* HWY_RESTRICT boxes, const float* HWY_RESTR
     return {overlapping, overlapping & close};
 }
 
+// Bit i of word k and bit k of word i change places: by halves, quarters and so on (H. S. Warren, Hacker's
+// Delight, ch. 7).
+template <unsigned kWidth>
+HWY_INLINE void ExchangeParts(std::uint64_t* HWY_RESTRICT words, std::uint64_t low) {
+    for (unsigned part = 0; part < partners_a_block; part += 2 * kWidth)
+        for (unsigned k = part; k < part + kWidth; ++k) {
+            const std::uint64_t changed = (words[k] >> kWidth ^ words[k + kWidth]) & low;
+            words[k] ^= changed << kWidth;
+            words[k + kWidth] ^= changed;
+        }
+}
+
+void Turn(std::uint64_t* HWY_RESTRICT words, std::size_t blocks, std::uint32_t* HWY_RESTRICT counts) {
+    for (; blocks > 0; --blocks, words += partners_a_block) {
+        ExchangeParts<32>(words, 0x00000000ffffffff);
+        ExchangeParts<16>(words, 0x0000ffff0000ffff);
+        ExchangeParts<8>(words, 0x00ff00ff00ff00ff);
+        ExchangeParts<4>(words, 0x0f0f0f0f0f0f0f0f);
+        ExchangeParts<2>(words, 0x3333333333333333);
+        ExchangeParts<1>(words, 0x5555555555555555);
+        for (std::size_t lane = 0; lane < partners_a_block; ++lane)
+            counts[lane] += static_cast<std::uint32_t>(hwy::PopCount(words[lane]));
+    }
+}
+
+// The partners of one lane, whose words lie 64 apart.
+HWY_INLINE void WriteList(const std::uint64_t* HWY_RESTRICT words, std::size_t blocks,
+                          const std::uint32_t* HWY_RESTRICT partners, std::uint32_t* HWY_RESTRICT out,
+                          std::size_t count) {
+    const Compressor::Words d;
+    constexpr std::size_t lanes = hn::MaxLanes(Compressor::Words());
+    [[maybe_unused]] std::uint32_t* const end = out + count;
+    for (; blocks > 0; --blocks, words += partners_a_block, partners += partners_a_block) {
+        std::uint64_t word = *words;
+        const std::uint32_t* next = partners;
+#if HWY_MAX_BYTES >= 64
+        for (; word != 0; next += lanes, word >>= lanes) {
+            const Compressor compress(static_cast<std::uint16_t>(word));
+            hn::BlendedStore(compress(hn::LoadU(d, next)), hn::FirstN(d, compress.count()), d, out);
+            out += compress.count();
+        }
+#else
+        // The next partners overwrite what is stored beyond these.
+        for (; word != 0 && static_cast<std::size_t>(end - out) >= lanes; next += lanes, word >>= lanes) {
+            const Compressor compress(static_cast<std::uint32_t>(word & ((1u << lanes) - 1)));
+            hn::StoreU(compress(hn::LoadU(d, next)), d, out);
+            out += compress.count();
+        }
+        for (; word != 0; word &= word - 1) *out++ = next[hwy::Num0BitsBelowLS1Bit_Nonzero64(word)];
+#endif
+    }
+}
+
+void Write(const std::uint64_t* HWY_RESTRICT words, std::size_t blocks,
+           const std::uint32_t* HWY_RESTRICT partners, std::uint32_t* const* HWY_RESTRICT lists,
+           const std::uint32_t* HWY_RESTRICT counts) {
+    for (std::size_t lane = 0; lane < partners_a_block; ++lane) // they lie anywhere
+        if (lists[lane]) prefetch(lists[lane]);
+    for (std::size_t lane = 0; lane < partners_a_block; ++lane)
+        if (lists[lane]) WriteList(words + lane, blocks, partners, lists[lane], counts[lane]);
+}
+
 } // namespace HWY_NAMESPACE
 } // namespace vox
 HWY_AFTER_NAMESPACE();
@@ -152,10 +216,32 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace vox {
 
-QuantiseTile* quantise_tile() noexcept { return VOX_SIMD_DISPATCH(QuantiseOwn); }
-QuantiseSides* quantise_sides() noexcept { return VOX_SIMD_DISPATCH(Quantise); }
-CompareFloats* compare_floats() noexcept { return VOX_SIMD_DISPATCH(CompareBox); }
-CompareTiles* compare_tiles() noexcept { return VOX_SIMD_DISPATCH(CompareQuantised); }
+void quantise_tile(const float* boxes, const float* low, const float* high, float close_by,
+                   QuantisedTile& out) {
+    VOX_SIMD_DISPATCH(QuantiseOwn)(boxes, low, high, close_by, out);
+}
+
+void quantise_sides(const float* boxes, const QuantisedTile& tile, QuantisedSides& out) {
+    VOX_SIMD_DISPATCH(Quantise)(boxes, tile, out);
+}
+
+std::size_t compare_tiles(const QuantisedTile& tile, std::uint64_t asked, const QuantisedSides& other,
+                          std::uint64_t wanted, TileOverlaps& out) {
+    return VOX_SIMD_DISPATCH(CompareQuantised)(tile, asked, other, wanted, out);
+}
+
+FloatOverlaps compare_floats(const float* boxes, const float* box, float close_by) {
+    return VOX_SIMD_DISPATCH(CompareBox)(boxes, box, close_by);
+}
+
+void turn_blocks(std::uint64_t* words, std::size_t blocks, std::uint32_t* counts) {
+    VOX_SIMD_DISPATCH(Turn)(words, blocks, counts);
+}
+
+void write_lists(const std::uint64_t* words, std::size_t blocks, const std::uint32_t* partners,
+                 std::uint32_t* const* lists, const std::uint32_t* counts) {
+    VOX_SIMD_DISPATCH(Write)(words, blocks, partners, lists, counts);
+}
 
 } // namespace vox
 #endif

@@ -1,4 +1,5 @@
-// The boxes of a tile of features, all 64 compared with those of another tile.
+// The 64 lanes of a tile of features: their boxes, all compared with those of another tile, and the lists of
+// their partners.
 #pragma once
 
 #include <cstddef>
@@ -37,26 +38,32 @@ struct TileOverlaps {
 };
 
 // `boxes` is 6 * 64 floats, as in FeatureTiles::boxes, `low` and `high` are the tile's box.
-using QuantiseTile = void(const float* boxes, const float* low, const float* high, float close_by,
-                          QuantisedTile& out);
+void quantise_tile(const float* boxes, const float* low, const float* high, float close_by,
+                   QuantisedTile& out);
 // The boxes of another tile in the quanta of `tile`.
-using QuantiseSides = void(const float* boxes, const QuantisedTile& tile, QuantisedSides& out);
+void quantise_sides(const float* boxes, const QuantisedTile& tile, QuantisedSides& out);
 // Compares the lanes `asked` of a tile with the lanes `wanted` of another one. Returns how many of these
 // overlap any.
-using CompareTiles = std::size_t(const QuantisedTile& tile, std::uint64_t asked, const QuantisedSides& other,
-                                 std::uint64_t wanted, TileOverlaps& out);
+std::size_t compare_tiles(const QuantisedTile& tile, std::uint64_t asked, const QuantisedSides& other,
+                          std::uint64_t wanted, TileOverlaps& out);
 
 // Compares a tile's boxes of floats with one box, whose numbers lie 64 floats apart. Bit k of `lanes`: lane k
 // overlaps it; bit k of `close`: but reaches into it by no more than `close_by` along some axis.
 struct FloatOverlaps {
     std::uint64_t lanes, close;
 };
-using CompareFloats = FloatOverlaps(const float* boxes, const float* box, float close_by);
+FloatOverlaps compare_floats(const float* boxes, const float* box, float close_by);
 
-// For the instructions of this machine.
-QuantiseTile* quantise_tile() noexcept;
-QuantiseSides* quantise_sides() noexcept;
-CompareTiles* compare_tiles() noexcept;
-CompareFloats* compare_floats() noexcept;
+// Lists turn the lanes of each partner of a tile into the partners of each lane, 64 by 64.
+inline constexpr std::size_t partners_a_block = 64;
+
+// `words`: of 64 partners a block, the lanes of each as bits. Afterwards they are 64 lanes a block, the
+// partners of each as bits; counts[lane] grows by their number.
+void turn_blocks(std::uint64_t* words, std::size_t blocks, std::uint32_t* counts);
+
+// Writes the partners of each lane to lists[lane], where that is not null; counts[lane] is their number.
+// `partners` can be read up to the end of the last block.
+void write_lists(const std::uint64_t* words, std::size_t blocks, const std::uint32_t* partners,
+                 std::uint32_t* const* lists, const std::uint32_t* counts);
 
 } // namespace vox
