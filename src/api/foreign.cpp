@@ -5,7 +5,6 @@
 #include "base/caller_memory.hpp"
 #include "base/structs.hpp"
 #include "cell_size/foreign/grid.hpp"
-#include "cell_size/foreign/suggest.hpp"
 
 #include <cmath>
 #include <cstddef>

@@ -178,11 +178,11 @@ START_TEST(reference_quick_look) {
     scene.prepare();
     const ReferenceModel all(Described(scene), false, shipped_weights);
     const CellSizeRange range = all.range().value();
-    const CostMinimum best = minimise(of_size(all), range, {.scans_per_octave = 16});
+    const vox_cost_sample best = minimise(of_size(all), range, {.scans_per_octave = 16});
     for (const std::uint64_t tets : {tets_of(scene), std::uint64_t{200000}}) {
         const ReferenceModel some(Described(scene, quick(VOX_COST_MODEL_REFERENCE, tets)), false,
                                   shipped_weights);
-        const CostMinimum found = minimise(of_size(some), range, {.scans_per_octave = 16});
+        const vox_cost_sample found = minimise(of_size(some), range, {.scans_per_octave = 16});
         ck_assert_msg(all(found.cell_size) <= 1.02 * best.cost, "%s: quick %g, thorough %g, cost %g over %g",
                       named.name, found.cell_size, best.cell_size, all(found.cell_size), best.cost);
     }
@@ -199,8 +199,8 @@ START_TEST(reference_usual_look) {
     const ReferenceModel some(Described(scene, usual(VOX_COST_MODEL_REFERENCE, tets_of(scene))), false,
                               shipped_weights);
     const CellSizeRange range = all.range().value();
-    const CostMinimum best = minimise(of_size(all), range, {.scans_per_octave = 16});
-    const CostMinimum found = minimise(of_size(some), range, {.scans_per_octave = 16});
+    const vox_cost_sample best = minimise(of_size(all), range, {.scans_per_octave = 16});
+    const vox_cost_sample found = minimise(of_size(some), range, {.scans_per_octave = 16});
     ck_assert_msg(all(found.cell_size) <= 1.04 * best.cost, "%s: %g, thorough %g, cost %g over %g",
                   named.name, found.cell_size, best.cell_size, all(found.cell_size), best.cost);
 }
@@ -239,7 +239,7 @@ double visits_of_other_length(Scene& scene, double cell_size) {
 }
 
 double term(const CostTerms& terms, const std::string& name) {
-    for (const CostTerm& t : terms)
+    for (const vox_cost_term& t : terms)
         if (t.name == name) return t.count;
     ck_abort_msg("no term %s", name.c_str());
     return 0;
@@ -334,8 +334,8 @@ START_TEST(fast_quick_look) {
     const FastModel all(Described(scene, thorough, {}), shipped_weights);
     const FastModel some(Described(scene, quick(VOX_COST_MODEL_FAST, tets), {}), shipped_weights);
     const CellSizeRange range = all.range().value();
-    const CostMinimum best = minimise(of_size(all), range);
-    const CostMinimum found = minimise(of_size(some), range);
+    const vox_cost_sample best = minimise(of_size(all), range);
+    const vox_cost_sample found = minimise(of_size(some), range);
     ck_assert_msg(all(found.cell_size) <= 1.03 * best.cost, "%s: quick %g, thorough %g, cost %g over %g",
                   named.name, found.cell_size, best.cell_size, all(found.cell_size), best.cost);
 }
@@ -353,8 +353,8 @@ START_TEST(fast_usual_look) {
     sketched.prepare(VOX_COST_MODEL_FAST);
     const FastModel some(sketched, shipped_weights);
     const CellSizeRange range = all.range().value();
-    const CostMinimum best = minimise(of_size(all), range);
-    const CostMinimum found = minimise(of_size(some), range);
+    const vox_cost_sample best = minimise(of_size(all), range);
+    const vox_cost_sample found = minimise(of_size(some), range);
     ck_assert_msg(all(found.cell_size) <= 1.02 * best.cost, "%s: %g, thorough %g, cost %g over %g",
                   named.name, found.cell_size, best.cell_size, all(found.cell_size), best.cost);
     const auto counts = [&](const FastModel& model) {
@@ -418,7 +418,7 @@ START_TEST(levels_where_they_pay) {
     const ReferenceModel cost(Described(unlike), false, shipped_weights);
     range = cost.range().value();
     const Levels levels = choose_levels(cost, range);
-    const CostMinimum uniform = minimise(of_size(cost), range);
+    const vox_cost_sample uniform = minimise(of_size(cost), range);
     ck_assert_uint_ge(levels.count, 2);
     ck_assert_double_lt(levels.cost, 0.8 * uniform.cost);
     ck_assert_double_gt(levels.level[levels.count - 1].cell_size, 3 * levels.level[0].cell_size);

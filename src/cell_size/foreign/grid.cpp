@@ -4,13 +4,12 @@
 #include "base/caller_memory.hpp"
 #include "base/sampling.hpp"
 #include "base/structs.hpp"
-#include "cell_size/foreign/known_grids.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cinttypes>
 #include <cmath>
-#include <iterator>
-#include <string>
 
 namespace vox {
 
@@ -18,15 +17,8 @@ namespace vox {
 
 namespace {
 
-constexpr struct {
-    const char* name;
-    double vox_foreign_weights::*field;
-} weight_fields[] = {
-    {"run", &vox_foreign_weights::run},     {"store", &vox_foreign_weights::store},
-    {"visit", &vox_foreign_weights::visit}, {"found", &vox_foreign_weights::found},
-    {"read", &vox_foreign_weights::read},   {"occupied", &vox_foreign_weights::occupied},
-    {"cell", &vox_foreign_weights::cell},
-};
+constexpr std::array<const char*, std::tuple_size_v<WeightArray>> weight_names{
+    "run", "store", "visit", "found", "read", "occupied", "cell"};
 
 void check_grid_number(bool good, double value, const char* name, const char* expected) {
     if (!good || !std::isfinite(value)) refuse(format("grid %s is %.9g, expected %s", name, value, expected));
@@ -38,10 +30,10 @@ vox_foreign_grid checked(vox_foreign_grid grid) {
     check_enum(grid.cells_queried, VOX_CELLS_QUERIED_PAIRS, "grid cells_queried");
     check_enum(grid.cells_kept, VOX_CELLS_KEPT_DENSE, "grid cells_kept");
     check_enum(grid.known, VOX_KNOWN_GRID_NUMPY, "grid known");
-    const KnownGrid& known = known_grid(grid.known);
-    set_default(grid.cells_stored, known.stored);
-    set_default(grid.cells_queried, known.queried);
-    set_default(grid.cells_kept, known.kept);
+    const vox_foreign_grid& known = known_grid(grid.known);
+    set_default(grid.cells_stored, known.cells_stored);
+    set_default(grid.cells_queried, known.cells_queried);
+    set_default(grid.cells_kept, known.cells_kept);
     if (grid.cells_queried == VOX_CELLS_QUERIED_27 && grid.cells_stored != VOX_CELLS_STORED_CENTRE)
         refuse(
             "grid cells_queried is 27 and cells_stored BOX: 27 cells are visited where cells store centres");
@@ -50,11 +42,10 @@ vox_foreign_grid checked(vox_foreign_grid grid) {
     check_grid_number(grid.min_cell_size >= 0, grid.min_cell_size, "min_cell_size", "0 or a length");
     check_grid_number(grid.zone_loss >= 0 && grid.zone_loss <= 1e6, grid.zone_loss, "zone_loss",
                       "a number from 0 to 1e6");
-    for (const auto& [name, field] : weight_fields) {
-        const double weight = grid.weights.*field;
-        check_grid_number(weight >= 0, weight, (std::string("weights.") + name).c_str(),
+    const auto weights = std::bit_cast<WeightArray>(grid.weights);
+    for (std::size_t i = 0; i < weights.size(); ++i)
+        check_grid_number(weights[i] >= 0, weights[i], format("weights.%s", weight_names[i]).c_str(),
                           "0 or more nanoseconds");
-    }
     check_allocator(grid.allocator, "grid.allocator");
     require(grid.stored, "grid.stored");
     return grid;
@@ -65,8 +56,8 @@ vox_foreign_grid checked(vox_foreign_grid grid) {
 ForeignGrid::ForeignGrid(const vox_foreign_grid* from_caller)
     : desc(checked(read_struct(from_caller, "grid"))), held(read_struct(desc.stored, "stored"), "stored: ") {
     if (desc.querying) asking.emplace(read_struct(desc.querying, "querying"), "querying: ");
-    const bool given = std::any_of(std::begin(weight_fields), std::end(weight_fields),
-                                   [&](const auto& f) { return desc.weights.*f.field > 0; });
+    const auto weights = std::bit_cast<WeightArray>(desc.weights);
+    const bool given = std::any_of(weights.begin(), weights.end(), [](double ns) { return ns > 0; });
     weights_known = given || desc.known != VOX_KNOWN_GRID_NONE;
     if (!weights_known) {
         // A point is in one cell, whatever cells hold.
@@ -111,17 +102,17 @@ double mean_edge(const Primitives& primitives) {
     return sum / count;
 }
 
-void set_sides(const BoxSample& sample, ForeignRules& rules, std::pmr::memory_resource* memory) {
+// Mean and median of the longest sides.
+std::array<double, 2> middle_sides(const BoxSample& sample, std::pmr::memory_resource* memory) {
     Array<double> sides(memory);
     double sum = 0;
     for_stratified(sample.boxes.size(), measured, 0.5, [&](std::uint64_t i) {
         sides.push_back(sample.boxes[static_cast<std::size_t>(i)].longest_side());
         sum += sides.back();
     });
-    rules.mean_box_side = sum / static_cast<double>(sides.size());
     const auto middle = sides.begin() + static_cast<std::ptrdiff_t>(sides.size() / 2);
     std::nth_element(sides.begin(), middle, sides.end());
-    rules.median_box_side = *middle;
+    return {sum / static_cast<double>(sides.size()), *middle};
 }
 
 } // namespace
@@ -173,11 +164,13 @@ ForeignWork::ForeignWork(const ForeignGrid& grid, const SampleBudget& budget, co
     else if (least_ > 0)
         range_ = {least_, least_};
 
-    set_sides(held, rules_, memory);
-    rules_.mean_edge = mean_edge(grid.held);
     const PlainBox& all = held_sums_.bounds;
-    rules_.spacing = std::cbrt(all.side(0) * all.side(1) * all.side(2) / held_sums_.count);
-    rules_.radius = asking_sums_.radius;
+    const auto [mean_side, median_side] = middle_sides(held, memory);
+    rules_ = {{{"mean edge (Teschner et al. 2003)", mean_edge(grid.held), 0},
+               {"mean box side", mean_side, 0},
+               {"median box side (IPC Toolkit)", median_side, 0},
+               {"spacing", std::cbrt(all.side(0) * all.side(1) * all.side(2) / held_sums_.count), 0},
+               {"mean radius", asking_sums_.radius, 0}}};
     for (auto* shares : {&empty_shares_, &occupied_shares_}) shares->emplace(range_, curve_octaves, memory);
     never_empty_ = same_set_ && !centres_ && grid.desc.radius == 0; // each finds itself
 }
@@ -224,11 +217,10 @@ vox_foreign_counts ForeignWork::exactly_at(double d) {
     return with_shares(d, empty_share(d), occupied_share(d));
 }
 
-vox_foreign_counts ForeignWork::at(double d, CellsWanted wanted) {
-    const auto empty = [this](double size) { return empty_share(size); };
-    const auto occupied = [this](double size) { return occupied_share(size); };
-    return with_shares(d, wanted.empty ? empty_shares_->at(d, empty) : 0,
-                       wanted.occupied ? occupied_shares_->at(d, occupied) : 0);
+vox_foreign_counts ForeignWork::at(double d, bool empty, bool occupied) {
+    return with_shares(
+        d, empty ? empty_shares_->at(d, [this](double size) { return empty_share(size); }) : 0,
+        occupied ? occupied_shares_->at(d, [this](double size) { return occupied_share(size); }) : 0);
 }
 
 double ForeignWork::empty_share(double d) const {
