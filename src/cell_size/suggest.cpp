@@ -135,9 +135,7 @@ vox_cell_size_result suggest_fast(const vox_cell_size_desc& desc, const CellSize
     const vox_geometry& stats = scene.geometry.stats;
     const FastModel model(scene, weights);
     if (stats.tets == 0 || !(stats.mean_box_side > 0)) throw_no_size(stats);
-    const auto terms = [&](double cell_size) {
-        return model.terms(cell_size, FastModel::Alignment::average);
-    };
+    const auto terms = [&](double cell_size) { return model.terms(cell_size); };
     if (const std::optional<CellSizeRange> range = model.range())
         return suggest_by(desc, scene.geometry, terms, *range, *range);
     // No body is near another one: any size will do, so a usual one for when some are.

@@ -36,7 +36,7 @@ using WorkAt = std::function<vox_foreign_counts(double cell_size)>;
 
 // What a cost is a sum of.
 struct CostBasis {
-    std::size_t count = 0;                                // of the terms; 0: nothing is known of the grid
+    std::size_t count = 0;                                  // of the terms; 0: nothing is known of the grid
     std::function<Coefficients(double cell_size)> values{}; // of the terms, >= 0
     Coefficients expected{}; // coefficients in any unit: what timings cannot tell apart is divided like these
     double least_cell_size = 0; // that is legal; 0: any

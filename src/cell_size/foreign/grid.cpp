@@ -74,10 +74,6 @@ ForeignGrid::ForeignGrid(const vox_foreign_grid* from_caller)
 
 namespace {
 
-double share_of(const BoxSample& sample, const Primitives& primitives) {
-    return static_cast<double>(sample.boxes.size()) / static_cast<double>(primitives.count());
-}
-
 constexpr double curve_octaves = 3;     // that a curve goes beyond the range
 constexpr std::uint64_t measured = 512; // primitives whose edges and sides make the rules
 
@@ -103,21 +99,17 @@ double mean_edge(const Primitives& primitives) {
 }
 
 // Mean and median of the longest sides.
-std::array<double, 2> middle_sides(const BoxSample& sample, std::pmr::memory_resource* memory) {
+std::array<double, 2> middle_sides(const Array<PlainBox>& sample, std::pmr::memory_resource* memory) {
     Array<double> sides(memory);
     double sum = 0;
-    for_stratified(sample.boxes.size(), measured, 0.5, [&](std::uint64_t i) {
-        sides.push_back(sample.boxes[static_cast<std::size_t>(i)].longest_side());
+    for_stratified(sample.size(), measured, 0.5, [&](std::uint64_t i) {
+        sides.push_back(sample[static_cast<std::size_t>(i)].longest_side());
         sum += sides.back();
     });
     const auto middle = sides.begin() + static_cast<std::ptrdiff_t>(sides.size() / 2);
     std::nth_element(sides.begin(), middle, sides.end());
     return {sum / static_cast<double>(sides.size()), *middle};
 }
-
-} // namespace
-
-namespace {
 
 // What is around fewer boxes is looked at more closely: the boxes seen around one are as coarse^-3.
 double coarseness(const SampleBudget& budget, std::size_t chosen) {
@@ -129,24 +121,22 @@ double coarseness(const SampleBudget& budget, std::size_t chosen) {
 
 ForeignWork::ForeignWork(const ForeignGrid& grid, const SampleBudget& budget,
                          std::pmr::memory_resource* memory)
-    : ForeignWork(grid, budget, sample_boxes(grid.held, grid.held_grown(), budget.held, 1, memory),
-                  sample_boxes(grid.those_asking(), grid.desc.radius, budget.asking, 2, memory), memory) {}
-
-ForeignWork::ForeignWork(const ForeignGrid& grid, const SampleBudget& budget, const BoxSample& held,
-                         const BoxSample& asking, std::pmr::memory_resource* memory)
     : centres_(grid.centres()), pairs_(grid.pairs()), same_set_(grid.same_set()),
       around_(grid.desc.cells_queried == VOX_CELLS_QUERIED_27), chosen_(budget.chosen),
-      looked_cells_(budget.cells), singly_(budget.singly), rough_(budget.rough),
-      held_(held, centres_, share_of(held, grid.held), memory),
-      asking_(asking, around_ || (pairs_ && centres_), share_of(asking, grid.those_asking()), memory),
-      asking_chosen_(choose_asking(asking_, budget.chosen, memory)), held_chosen_(memory),
-      read_(sum_pairs(asking_, asking_chosen_, held_, coarseness(budget, asking_chosen_.size()),
-                      around_ ? Meeting::in_neighbours : Meeting::in_cells, same_set_, memory)),
-      memory_(memory) {
+      looked_cells_(budget.cells), singly_(budget.singly), rough_(budget.rough), held_(memory),
+      asking_(memory), asking_chosen_(memory), held_chosen_(memory), read_(1, 0, memory), memory_(memory) {
+    const Primitives& those_asking = grid.those_asking();
+    sample_boxes(grid.held, grid.held_grown(), budget.held, 1, held_);
+    sample_boxes(those_asking, grid.desc.radius, budget.asking, 2, asking_);
+    const auto [mean_side, median_side] = middle_sides(held_.added(), memory);
+    held_.build(centres_, static_cast<double>(grid.held.count()));
+    asking_.build(around_ || (pairs_ && centres_), static_cast<double>(those_asking.count()));
+    asking_chosen_ = choose_asking(asking_, budget.chosen, memory);
+    read_ = sum_pairs(asking_, asking_chosen_, held_, coarseness(budget, asking_chosen_.size()), around_,
+                      same_set_, memory);
     held_sums_ = sum_boxes(grid.held, grid.held_grown(), centres_, budget.summed);
-    asking_sums_ = same_set_
-                       ? grown_sums(held_sums_, grid.desc.radius - grid.held_grown())
-                       : sum_boxes(grid.those_asking(), grid.desc.radius, centres_ && pairs_, budget.summed);
+    asking_sums_ = same_set_ ? grown_sums(held_sums_, grid.desc.radius - grid.held_grown())
+                             : sum_boxes(those_asking, grid.desc.radius, centres_ && pairs_, budget.summed);
     least_ = grid.desc.min_cell_size;
     if (around_ && least_ == 0) { // of all: it must not be missed
         const double longest = longest_side(grid.held);
@@ -165,7 +155,6 @@ ForeignWork::ForeignWork(const ForeignGrid& grid, const SampleBudget& budget, co
         range_ = {least_, least_};
 
     const PlainBox& all = held_sums_.bounds;
-    const auto [mean_side, median_side] = middle_sides(held, memory);
     rules_ = {{{"mean edge (Teschner et al. 2003)", mean_edge(grid.held), 0},
                {"mean box side", mean_side, 0},
                {"median box side (IPC Toolkit)", median_side, 0},
@@ -226,22 +215,20 @@ vox_foreign_counts ForeignWork::at(double d, bool empty, bool occupied) {
 double ForeignWork::empty_share(double d) const {
     if (pairs_ || never_empty_) return 0;
     std::uint64_t random = 3;
-    double all = 0, empty_ones = 0;
     CellCounts counts;
     const double share = held_.share();
     for (std::size_t i = 0; i < looked_cells_; ++i) {
         const Asking& ask = asking_chosen_[i * asking_chosen_.size() / looked_cells_];
-        const SomeCell cell = some_cell(asking_.box(ask.index), d, around_, random);
-        const double weight = ask.weight * cell.of;
+        double lo[3];
+        const double weight = ask.weight * some_cell(asking_.box(ask.index), d, around_, random, lo);
         if (share == 1) {
-            all += weight;
-            if (!held_.meets_any(cell.lo, d)) empty_ones += weight;
+            counts.add_known(weight, held_.meets_any(lo, d) ? 0 : weight);
         } else {
-            const double n = held_.count_meeting(cell.lo, d, rough_);
-            counts.add(weight, n / share, n * (n - 1) / (share * share));
+            const double n = held_.count_meeting(lo, d, rough_);
+            counts.add_part(weight, n / share, n * (n - 1) / (share * share));
         }
     }
-    return share == 1 ? empty_ones / all : counts.none();
+    return counts.none();
 }
 
 namespace {
@@ -288,10 +275,14 @@ double ForeignWork::occupied_share(double d) {
     if (smooth.cells * least_positions <=
         static_cast<double>(all_kept ? singly_ : std::min(singly_, looked_cells_)))
         return occupied_of_few(d, smooth.cells) / smooth.stored;
-    OccupiedShare share(d);
-    share.look(held_, both ? &asking_ : nullptr, held_chosen_, looked_cells_, rough_);
-    if (both) share.look(asking_, &held_, asking_chosen_, looked_cells_, rough_);
-    return share.value();
+    std::uint64_t random = 4;
+    CellCounts counts;
+    const auto look = [&](const SampleTree& own, const SampleTree* other, const Array<Asking>& chosen) {
+        look_at_entries(own, other, chosen, looked_cells_, d, rough_, endless, random, counts);
+    };
+    look(held_, both ? &asking_ : nullptr, held_chosen_);
+    if (both) look(asking_, &held_, asking_chosen_);
+    return counts.mean_inverse();
 }
 
 } // namespace vox

@@ -112,8 +112,6 @@ public:
     std::uint64_t pairs_looked_at() const noexcept { return read_.added(); }
 
 private:
-    ForeignWork(const ForeignGrid& grid, const SampleBudget& budget, const BoxSample& held,
-                const BoxSample& asking, std::pmr::memory_resource* memory);
     double empty_share(double cell_size) const;
     double occupied_share(double cell_size);
     double occupied_of_few(double cell_size, double cells_there) const;

@@ -400,7 +400,7 @@ void for_random_places(std::uint64_t count, std::uint64_t wanted, std::uint64_t 
 
 template <int corners>
 void sample_packed(const PackedPrimitives& packed, double radius, std::uint64_t wanted, std::uint64_t seed,
-                   BoxSample& sample) {
+                   SampleTree& sample) {
     for_random_places(packed.all.count(), wanted, seed, [&](std::uint64_t i) {
         Four lo, hi;
         packed.box<corners>(i, lo, hi);
@@ -412,7 +412,7 @@ void sample_packed(const PackedPrimitives& packed, double radius, std::uint64_t 
             box.lo[k] = double{low[k]} - radius;
             box.hi[k] = double{high[k]} + radius;
         }
-        sample.add(box, static_cast<std::uint32_t>(i));
+        sample.add(box, i);
     });
 }
 
@@ -460,9 +460,8 @@ PrimitiveSums grown_sums(PrimitiveSums sums, double by) noexcept {
     return sums;
 }
 
-BoxSample sample_boxes(const Primitives& primitives, double grown, std::uint64_t wanted, std::uint64_t seed,
-                       std::pmr::memory_resource* memory) {
-    BoxSample sample(memory);
+void sample_boxes(const Primitives& primitives, double grown, std::uint64_t wanted, std::uint64_t seed,
+                  SampleTree& sample) {
     sample.reserve(static_cast<std::size_t>(std::min(primitives.count(), wanted)));
     if (PackedPrimitives::fits(primitives) && !primitives.has_radii()) {
         const PackedPrimitives packed(primitives);
@@ -481,14 +480,13 @@ BoxSample sample_boxes(const Primitives& primitives, double grown, std::uint64_t
             sample_packed<4>(packed, radius, wanted, seed, sample);
             break;
         }
-        return sample;
+        return;
     }
     for_random_places(primitives.count(), wanted, seed, [&](std::uint64_t i) {
         PlainBox box = primitives.box(i);
         box.grow(primitives.radius(i) + grown);
-        sample.add(box, static_cast<std::uint32_t>(i));
+        sample.add(box, i);
     });
-    return sample;
 }
 
 } // namespace vox

@@ -70,10 +70,10 @@ double longest_side(const Primitives& primitives);
 // The sums for boxes that are larger by `by` on all sides, with the bounds as they were.
 PrimitiveSums grown_sums(PrimitiveSums sums, double by) noexcept;
 
-// Boxes of about `wanted` primitives, with radii and `grown` beyond: all of them, or one of each part of the
-// list, at a place that is independent from part to part and from seed to seed. So a pair of one primitive
-// from each of two samples is as likely as any other. Throws as Primitives::box().
-BoxSample sample_boxes(const Primitives& primitives, double grown, std::uint64_t wanted, std::uint64_t seed,
-                       std::pmr::memory_resource* memory);
+// Adds boxes of about `wanted` primitives, with radii and `grown` beyond: all of them, or one of each part of
+// the list, at a place that is independent from part to part and from seed to seed. So a pair of one
+// primitive from each of two samples is as likely as any other. Throws as Primitives::box().
+void sample_boxes(const Primitives& primitives, double grown, std::uint64_t wanted, std::uint64_t seed,
+                  SampleTree& sample);
 
 } // namespace vox
