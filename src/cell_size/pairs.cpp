@@ -75,8 +75,15 @@ PlainBox box_of(const FourBoxes& boxes) noexcept {
 
 } // namespace
 
-void SampleTree::build(bool centres, double of_all) {
-    const std::size_t count = added_.size();
+void SampleTree::build(bool centres, double of_all, std::uint64_t most) {
+    const std::size_t stride =
+        stride_for(added_.size(), static_cast<std::size_t>(std::min<std::uint64_t>(added_.size(), most)));
+    const std::size_t count = (added_.size() + stride - 1) / stride;
+    for (std::size_t i = 0; i < count; ++i) {
+        added_[i] = added_[i * stride];
+        ids_[i] = ids_[i * stride];
+    }
+    ids_.resize(count);
     share_ = static_cast<double>(count) / of_all;
     Array<Keyed> keys(count, added_.memory()), other(count, added_.memory());
     for (std::size_t i = 0; i < count; ++i) keys[i] = i;

@@ -94,8 +94,9 @@ public:
         ids_.push_back(static_cast<std::uint32_t>(id));
     }
     const Array<PlainBox>& added() const noexcept { return added_; }
-    // Call once, after the last add(): they are some of `of_all` boxes. With `centres`, keeps their centres.
-    void build(bool centres, double of_all);
+    // Call once, after the last add(), of some of `of_all` boxes. Keeps about `most` of them, or their
+    // centres.
+    void build(bool centres, double of_all, std::uint64_t most = ~std::uint64_t{0});
 
     std::size_t size() const noexcept { return ids_.size(); }
     double share() const noexcept { return share_; }

@@ -10,14 +10,14 @@ from repository import ROOT, files, text_of
 # Of C and C++ in src/, of all files elsewhere.
 LINES_OF_FOLDER = {
     "src": 46660, "src/base": 3320, "src/exact": 1340, "src/mesh": 4040, "src/reference": 680, "src/fast": 5550,
-    "src/depth": 2930, "src/query": 1540, "src/cell_size": 5582, "src/surface": 3340, "src/grid": 5890, "src/api": 1160,
+    "src/depth": 2930, "src/query": 1540, "src/cell_size": 5460, "src/surface": 3340, "src/grid": 5890, "src/api": 1160,
     "src/io": 8020, "src/sim": 1130, "src/dist": 2070, "src/mpi": 180,
     "tools": 6220, "bench": 10000,
 }
 LINES_OF_DATA = {"docs": 3000}  # pictures and figures of the pages
 LINES_OF_FILE = 600  # of a source file in SOURCES
 LINES_OF_FUNCTION = 80
-TYPES_OF_FOLDER = {"src/cell_size": 43}
+TYPES_OF_FOLDER = {"src/cell_size": 42}
 
 # What is still to be done, since 2026-11-28; nothing is to be added. A line that is no longer needed is a fault, too.
 LONG_FUNCTIONS = {"src/grid/constraints.cpp": 1, "src/surface/pairs.cpp": 1}

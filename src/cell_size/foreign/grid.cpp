@@ -98,6 +98,16 @@ double mean_edge(const Primitives& primitives) {
     return sum / count;
 }
 
+double mean_radius(const Primitives& primitives) {
+    if (!primitives.has_radii()) return primitives.common_radius();
+    double sum = 0, count = 0;
+    for_stratified(primitives.count(), measured, 0.5, [&](std::uint64_t i) {
+        sum += primitives.radius(i);
+        count += 1;
+    });
+    return sum / count;
+}
+
 // Mean and median of the longest sides.
 std::array<double, 2> middle_sides(const Array<PlainBox>& sample, std::pmr::memory_resource* memory) {
     Array<double> sides(memory);
@@ -109,6 +119,26 @@ std::array<double, 2> middle_sides(const Array<PlainBox>& sample, std::pmr::memo
     const auto middle = sides.begin() + static_cast<std::ptrdiff_t>(sides.size() / 2);
     std::nth_element(sides.begin(), middle, sides.end());
     return {sum / static_cast<double>(sides.size()), *middle};
+}
+
+// Sets what is summed over sampled boxes, which stand for `count`: the cells that they meet, the box of all
+// or, with `centres`, of their centres, and the longest side.
+void sum_boxes(const Array<PlainBox>& sample, double count, bool centres, Moments& cells, PlainBox& bounds,
+               double& longest) {
+    bounds = sample[0].centre();
+    for (const PlainBox& box : sample) {
+        cells.add(cells_met({box.side(0), box.side(1), box.side(2)}));
+        bounds.include(centres ? box.centre() : box);
+        longest = std::max(longest, box.longest_side());
+    }
+    for (double& sum : cells.sum) sum *= count / static_cast<double>(sample.size());
+}
+
+// The cells that these boxes meet when they are larger by `by` on all sides.
+Moments grown(const Moments& cells, double by) {
+    const double w = 2 * by, (&m)[4] = cells.sum;
+    return {{m[0], m[1] + 3 * w * m[0], m[2] + w * (2 * m[1] + 3 * w * m[0]),
+             m[3] + w * (m[2] + w * (m[1] + w * m[0]))}};
 }
 
 // What is around fewer boxes is looked at more closely: the boxes seen around one are as coarse^-3.
@@ -123,43 +153,52 @@ ForeignWork::ForeignWork(const ForeignGrid& grid, const SampleBudget& budget,
                          std::pmr::memory_resource* memory)
     : centres_(grid.centres()), pairs_(grid.pairs()), same_set_(grid.same_set()),
       around_(grid.desc.cells_queried == VOX_CELLS_QUERIED_27), chosen_(budget.chosen),
-      looked_cells_(budget.cells), singly_(budget.singly), rough_(budget.rough), held_(memory),
-      asking_(memory), asking_chosen_(memory), held_chosen_(memory), read_(1, 0, memory), memory_(memory) {
-    const Primitives& those_asking = grid.those_asking();
+      looked_cells_(budget.cells), singly_(budget.singly), rough_(budget.rough),
+      held_count_(static_cast<double>(grid.held.count())),
+      asking_count_(static_cast<double>(grid.those_asking().count())), held_(memory), asking_(memory),
+      asking_chosen_(memory), held_chosen_(memory), read_(1, 0, memory), memory_(memory) {
     sample_boxes(grid.held, grid.held_grown(), budget.held, 1, held_);
-    sample_boxes(those_asking, grid.desc.radius, budget.asking, 2, asking_);
-    const auto [mean_side, median_side] = middle_sides(held_.added(), memory);
-    held_.build(centres_, static_cast<double>(grid.held.count()));
-    asking_.build(around_ || (pairs_ && centres_), static_cast<double>(those_asking.count()));
+    // More of another set than are kept, for its sums.
+    sample_boxes(grid.those_asking(), grid.desc.radius, (same_set_ ? 1 : 4) * budget.asking, 2, asking_);
+    const Array<PlainBox>&held = held_.added(), &asking = asking_.added();
+    const auto [mean_side, median_side] = middle_sides(held, memory);
+    double held_side = 0, asking_side = 0;
+    sum_boxes(held, held_count_, centres_, held_cells_, held_bounds_, held_side);
+    if (same_set_) {
+        const double by = grid.desc.radius - grid.held_grown();
+        asking_cells_ = grown(held_cells_, by);
+        asking_bounds_ = held_bounds_;
+        asking_side = held_side + 2 * by;
+    } else {
+        sum_boxes(asking, asking_count_, centres_ && pairs_, asking_cells_, asking_bounds_, asking_side);
+    }
+    has_size_ = centres_ ? !around_ && !pairs_ && asking_side > 0 : held_side > 0 || asking_side > 0;
+    held_.build(centres_, held_count_);
+    asking_.build(around_ || (pairs_ && centres_), asking_count_, budget.asking);
     asking_chosen_ = choose_asking(asking_, budget.chosen, memory);
     read_ = sum_pairs(asking_, asking_chosen_, held_, coarseness(budget, asking_chosen_.size()), around_,
                       same_set_, memory);
-    held_sums_ = sum_boxes(grid.held, grid.held_grown(), centres_, budget.summed);
-    asking_sums_ = same_set_ ? grown_sums(held_sums_, grid.desc.radius - grid.held_grown())
-                             : sum_boxes(those_asking, grid.desc.radius, centres_ && pairs_, budget.summed);
     least_ = grid.desc.min_cell_size;
     if (around_ && least_ == 0) { // of all: it must not be missed
         const double longest = longest_side(grid.held);
         least_ = grid.desc.radius + (longest + (same_set_ ? longest : longest_side(*grid.asking))) / 2;
     }
-    PlainBox bounds = held_sums_.bounds;
-    bounds.include(asking_sums_.bounds);
+    PlainBox bounds = held_bounds_;
+    bounds.include(asking_bounds_);
     bounds.include(held_.bounds());
     bounds.include(asking_.bounds());
     extent_ = bounds.longest_side();
-    has_size_ = centres_ ? !around_ && !pairs_ && asking_sums_.longest > 0
-                         : held_sums_.longest > 0 || asking_sums_.longest > 0;
     if (extent_ > 0)
         range_ = {std::max(extent_ * 0x1p-28, least_), std::max(2 * extent_, least_)};
     else if (least_ > 0)
         range_ = {least_, least_};
 
-    const PlainBox& all = held_sums_.bounds;
+    const PlainBox& all = held_bounds_;
     rules_ = {{{"mean edge (Teschner et al. 2003)", mean_edge(grid.held), 0},
                {"mean box side", mean_side, 0},
                {"median box side (IPC Toolkit)", median_side, 0},
-               {"spacing", std::cbrt(all.side(0) * all.side(1) * all.side(2) / held_sums_.count), 0},
-               {"mean radius", asking_sums_.radius, 0}}};
+               {"spacing", std::cbrt(all.side(0) * all.side(1) * all.side(2) / held_count_), 0},
+               {"mean radius", mean_radius(grid.those_asking()) + grid.desc.radius, 0}}};
     for (auto* shares : {&empty_shares_, &occupied_shares_}) shares->emplace(range_, curve_octaves, memory);
     never_empty_ = same_set_ && !centres_ && grid.desc.radius == 0; // each finds itself
 }
@@ -168,21 +207,21 @@ ForeignWork::ForeignWork(const ForeignGrid& grid, const SampleBudget& budget,
 
 vox_foreign_counts ForeignWork::smooth_at(double d) const noexcept {
     vox_foreign_counts work{};
-    const double held_cells = centres_ ? held_sums_.count : held_sums_.cells.at(d);
+    const double held_cells = centres_ ? held_count_ : held_cells_.at(d);
     work.stored = held_cells;
     const double others = read_.at(d);
     if (pairs_) {
-        if (!same_set_) work.stored += centres_ ? asking_sums_.count : asking_sums_.cells.at(d);
+        if (!same_set_) work.stored += centres_ ? asking_count_ : asking_cells_.at(d);
         work.visits = work.stored;
         work.reads = same_set_ ? others / 2 : others;
     } else {
-        work.visits = around_ ? 27 * asking_sums_.count : asking_sums_.cells.at(d);
+        work.visits = around_ ? 27 * asking_count_ : asking_cells_.at(d);
         // Its own cells are what a box finds itself in.
         work.reads = same_set_ ? held_cells + others : others;
     }
     work.empty = work.visits;
-    PlainBox all = held_sums_.bounds;
-    if (pairs_) all.include(asking_sums_.bounds);
+    PlainBox all = held_bounds_;
+    if (pairs_) all.include(asking_bounds_);
     work.cells = cells_met({all.side(0), all.side(1), all.side(2)}).at(d);
     return work;
 }

@@ -73,13 +73,13 @@ inline SampleBudget quick_look(const ForeignGrid& grid) noexcept {
     const std::uint64_t count = std::max(grid.held.count(), grid.those_asking().count());
     const std::uint64_t held = std::clamp<std::uint64_t>(count / 10, 2048, 8192);
     const std::uint64_t chosen = std::min<std::uint64_t>(held / 32, 128);
-    return {4 * held, held, held / 4, static_cast<std::size_t>(chosen), 3, 48, 0.5, 48};
+    return {0, held, held / 4, static_cast<std::size_t>(chosen), 3, 48, 0.5, 48};
 }
 // What that takes, about.
 inline constexpr std::size_t quick_look_bytes = std::size_t{1} << 19;
 // For vox_foreign_grid_count. The tests hold its counts to within 5 % of those in a filled grid.
 inline constexpr SampleBudget thorough_look{
-    ~std::uint64_t{0}, std::uint64_t{1} << 18, std::uint64_t{1} << 15, 4096, 1, 16384, 0, 131072};
+    0, std::uint64_t{1} << 18, std::uint64_t{1} << 15, 4096, 1, 16384, 0, 131072};
 
 // What a run does, as a function of the cell size.
 class ForeignWork {
@@ -108,7 +108,7 @@ public:
     std::span<const vox_cell_size_rule> rules() const noexcept { return rules_; }
     bool without_size() const noexcept { return !has_size_; } // points that ask points
     bool in_one_place() const noexcept { return !(extent_ > 0); }
-    double asking_count() const noexcept { return asking_sums_.count; }
+    double asking_count() const noexcept { return asking_count_; }
     std::uint64_t pairs_looked_at() const noexcept { return read_.added(); }
 
 private:
@@ -120,7 +120,9 @@ private:
     bool centres_, pairs_, same_set_, around_;
     std::size_t chosen_, looked_cells_, singly_; // of a SampleBudget
     double rough_;
-    PrimitiveSums held_sums_, asking_sums_;
+    double held_count_, asking_count_;
+    Moments held_cells_, asking_cells_; // that the boxes meet
+    PlainBox held_bounds_, asking_bounds_;
     SampleTree held_, asking_;
     Array<Asking> asking_chosen_, held_chosen_;
     PiecewiseMoments read_; // by pairs of unlike ones
