@@ -5,8 +5,6 @@
 #include "base/structs.hpp"
 #include "cell_size/foreign/fit.hpp"
 #include "cell_size/foreign/grid.hpp"
-#include "cell_size/foreign/suggest.hpp"
-#include "cell_size/foreign/tune.hpp"
 
 #include <algorithm>
 #include <cmath>

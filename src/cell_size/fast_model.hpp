@@ -34,23 +34,14 @@ public:
     FastModel(const CellSizeScene& scene, const CostWeights& weights);
 
     // A window's lattice begins at its corner. In small windows the counts depend on how the tiles happen to
-    // lie there: `actual` counts them so. `average` takes the mean over all alignments, which is smooth in
-    // the cell size and better to choose one by, since bodies move on.
-    enum class Alignment { actual, average };
-
-    CostTerms terms(double cell_size, Alignment alignment) const;
-    double operator()(double cell_size) const { return terms(cell_size, Alignment::average).cost(); }
+    // lie there: `as_laid` counts them so. Else they are means over all alignments, which are smooth in the
+    // cell size and better to choose one by, since bodies move on.
+    CostTerms terms(double cell_size, bool as_laid = false) const;
+    double operator()(double cell_size) const { return terms(cell_size).cost(); }
+    double visited_cells(double cell_size) const; // of the rows, as laid
 
     // Cell sizes to search; none where no body is near another one or itself.
     std::optional<CellSizeRange> range() const noexcept;
-
-    struct Counts {
-        double vertices = 0, cells = 0; // binned, and of the windows
-        double looks = 0;               // of tiles into windows
-        double rows = 0, read = 0, tested = 0;
-        double visited_cells = 0; // for Alignment::actual only
-    };
-    Counts counts(double cell_size, Alignment alignment) const;
 
     // How many points near sampled tiles were looked at, and how many looks each call of counts() goes
     // through.
@@ -58,23 +49,17 @@ public:
     std::uint64_t looks_per_call() const noexcept;
 
 private:
-    // Of the box of a tile in a window, cut to it, along an axis: its side, and how far the window extends
-    // below and above. One after the other: compilers make vectors of loops over them.
-    struct Extents {
-        explicit Extents(std::pmr::memory_resource* memory) : side(memory), below(memory), above(memory) {}
-        double cells(std::size_t look, double inverse) const noexcept; // met, on average
-        Array<float> side, below, above;
-    };
     // Windows whose smallest possible cells are alike, so that the same cell size is used in all of them.
     struct Pool {
-        Pool(int key, std::pmr::memory_resource* memory)
-            : key(key), axes{Extents(memory), Extents(memory), Extents(memory)} {}
+        Pool(int key, std::pmr::memory_resource* memory) : key(key), extents(memory) {}
 
-        void add(double cell_size, Alignment alignment, Counts& sum) const noexcept;
+        void add_look(const Box& look, const Box& window);
+        void keep(std::size_t most); // of the looks
         double mean_rows(double cell_size) const noexcept;
-        // Adds rows and cells as they lie. Returns how much of the window they cover, relative to the
+        // Sets rows and cells as they lie. Returns how much of the window they cover, relative to the
         // average.
-        double add_actual(double cell_size, Counts& sum) const noexcept;
+        double lay(double cell_size, double& rows, double& cells) const noexcept;
+        const float* extent(std::size_t look, int axis) const noexcept; // the next two are some_looks behind
 
         int key;
         double windows = 0, smallest_cell = 0;      // the mean of the windows
@@ -84,21 +69,14 @@ private:
         Moments cells;                              // of the windows
         std::optional<PiecewiseMoments> read;
         std::size_t kept = 0; // looks that are gone through at each size
-        Extents axes[3];      // of these
-    };
-    struct Window {
-        Box box;
-        std::uint32_t first, count, pool; // points
-    };
-    struct Look {
-        Box box;
-        std::uint32_t window;
+        // For each axis, the sides of their boxes, cut to the window, and how far it extends below and above,
+        // of some looks at a time: compilers make vectors of loops over them.
+        Array<float> extents;
     };
 
-    void gather(const CellSizeScene& scene, fast::Points& points, Array<Window>& windows, Array<Look>& looks);
-    std::uint32_t add_window(const fast::Points& points, std::uint32_t first, Array<Window>& windows);
-    void keep_looks(const Array<Window>& windows, const Array<Look>& looks);
-    void count_points(const fast::Points& points, const Array<Window>& windows, const Array<Look>& looks);
+    void gather(const CellSizeScene& scene, fast::Points& points, Array<AskingBox>& looks);
+    Pool& pool_of(double smallest_cell);
+    void count_points(const fast::Points& points, const Array<AskingBox>& looks);
 
     Array<Pool> pools_;
     CostWeights weights_;

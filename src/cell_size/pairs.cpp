@@ -19,9 +19,10 @@ namespace {
 constexpr std::size_t longest_run = 8; // of boxes whose order does not matter
 constexpr std::size_t least_for_radix = 256;
 
-struct Keyed {
-    std::uint32_t key, index;
-};
+// The key of a place above, the index of a box below.
+using Keyed = std::uint64_t;
+
+std::uint32_t index_of(Keyed keyed) noexcept { return static_cast<std::uint32_t>(keyed); }
 
 std::uint32_t spread_bits(std::uint32_t v) noexcept { // ten bits, two zeros after each
     v = (v | v << 16) & 0x030000ffu;
@@ -31,17 +32,12 @@ std::uint32_t spread_bits(std::uint32_t v) noexcept { // ten bits, two zeros aft
 }
 
 void sort_keys(Keyed* keys, Keyed* other, std::size_t count) {
-    if (count < least_for_radix) {
-        std::sort(keys, keys + count, [](const Keyed& a, const Keyed& b) {
-            return a.key != b.key ? a.key < b.key : a.index < b.index;
-        });
-        return;
-    }
-    for (int shift = 0; shift < 30; shift += 10) {
+    if (count < least_for_radix) return std::sort(keys, keys + count);
+    for (int shift = 32; shift < 62; shift += 10) {
         std::array<std::uint32_t, 1025> begin{};
-        for (std::size_t i = 0; i < count; ++i) ++begin[(keys[i].key >> shift & 1023) + 1];
+        for (std::size_t i = 0; i < count; ++i) ++begin[(keys[i] >> shift & 1023) + 1];
         for (std::size_t b = 1; b < begin.size(); ++b) begin[b] += begin[b - 1];
-        for (std::size_t i = 0; i < count; ++i) other[begin[keys[i].key >> shift & 1023]++] = keys[i];
+        for (std::size_t i = 0; i < count; ++i) other[begin[keys[i] >> shift & 1023]++] = keys[i];
         std::swap(keys, other);
     }
     // After three passes the sorted keys are in what was `other`.
@@ -52,28 +48,24 @@ void sort_keys(Keyed* keys, Keyed* other, std::size_t count) {
 // themselves.
 void sort_by_place(const PlainBox* boxes, Keyed* keys, Keyed* other, std::size_t count) {
     if (count <= 1) return;
-    PlainBox bounds = boxes[keys[0].index].centre();
-    for (std::size_t i = 1; i < count; ++i) bounds.include(boxes[keys[i].index].centre());
+    PlainBox bounds = boxes[index_of(keys[0])].centre();
+    for (std::size_t i = 1; i < count; ++i) bounds.include(boxes[index_of(keys[i])].centre());
     const double longest = bounds.longest_side(), scale = 1023.99 / longest;
     if (!(longest > 0) || !std::isfinite(scale)) return;
     for (std::size_t i = 0; i < count; ++i) {
-        const PlainBox at = boxes[keys[i].index].centre();
+        const PlainBox at = boxes[index_of(keys[i])].centre();
         std::uint32_t key = 0;
         for (int a = 0; a < 3; ++a)
             key |= spread_bits(static_cast<std::uint32_t>((at.lo[a] - bounds.lo[a]) * scale)) << a;
-        keys[i].key = key;
+        keys[i] = Keyed{key} << 32 | index_of(keys[i]);
     }
     sort_keys(keys, other, count);
     for (std::size_t i = 0, end; i < count; i = end) {
-        for (end = i + 1; end < count && keys[end].key == keys[i].key; ++end) {
+        for (end = i + 1; end < count && keys[end] >> 32 == keys[i] >> 32; ++end) {
         }
         if (end - i > longest_run) sort_by_place(boxes, keys + i, other + i, end - i);
     }
 }
-
-} // namespace
-
-namespace {
 
 PlainBox box_of(const FourBoxes& boxes) noexcept {
     PlainBox box = boxes.get(0);
@@ -83,20 +75,28 @@ PlainBox box_of(const FourBoxes& boxes) noexcept {
 
 } // namespace
 
-SampleTree::SampleTree(const BoxSample& sample, bool centres, double share, std::pmr::memory_resource* memory)
-    : groups_(memory), ids_(memory), share_(share) {
-    const std::size_t count = sample.boxes.size();
-    Array<Keyed> keys(count, memory), other(count, memory);
-    for (std::size_t i = 0; i < count; ++i) keys[i].index = static_cast<std::uint32_t>(i);
-    sort_by_place(sample.boxes.data(), keys.data(), other.data(), count);
-    ids_.reserve(count);
+void SampleTree::build(bool centres, double of_all, std::uint64_t most) {
+    const std::size_t stride =
+        stride_for(added_.size(), static_cast<std::size_t>(std::min<std::uint64_t>(added_.size(), most)));
+    const std::size_t count = (added_.size() + stride - 1) / stride;
+    for (std::size_t i = 0; i < count; ++i) {
+        added_[i] = added_[i * stride];
+        ids_[i] = ids_[i * stride];
+    }
+    ids_.resize(count);
+    share_ = static_cast<double>(count) / of_all;
+    Array<Keyed> keys(count, added_.memory()), other(count, added_.memory());
+    for (std::size_t i = 0; i < count; ++i) keys[i] = i;
+    sort_by_place(added_.data(), keys.data(), other.data(), count);
     groups_.reserve((count + 3) / 4 * 4 / 3 + most_levels);
     for (std::size_t i = 0; i < count; ++i) {
-        const PlainBox& box = sample.boxes[keys[i].index];
+        const std::uint32_t index = index_of(keys[i]);
         if (i % 4 == 0) groups_.push_back(no_boxes);
-        groups_.back().set(i % 4, centres ? box.centre() : box);
-        ids_.push_back(sample.ids[keys[i].index]);
+        groups_.back().set(i % 4, centres ? added_[index].centre() : added_[index]);
+        keys[i] = ids_[index];
     }
+    for (std::size_t i = 0; i < count; ++i) ids_[i] = index_of(keys[i]);
+    added_ = Array<PlainBox>(added_.memory());
     // A level has a box for each group of the one below.
     for (levels_ = 1;; ++levels_) {
         const std::size_t below = first_[levels_ - 1], end = groups_.size();
@@ -117,28 +117,18 @@ double SampleTree::crowd_side(std::size_t i) const noexcept {
 
 namespace {
 
-// How far four boxes are from a cube [lo, hi) along the axis where that is most: those meet it that end at lo
-// or above and begin below hi.
-struct FourDistances {
-    double end_below[4], begin_above[4];
-
-    FourDistances(const FourBoxes& boxes, const double (&lo)[3], const double (&hi)[3]) noexcept {
-        for (std::size_t i = 0; i < 4; ++i) end_below[i] = begin_above[i] = -endless;
-        for (int a = 0; a < 3; ++a)
-            for (std::size_t i = 0; i < 4; ++i) {
-                end_below[i] = std::max(end_below[i], lo[a] - boxes.hi[a][i]);
-                begin_above[i] = std::max(begin_above[i], boxes.lo[a][i] - hi[a]);
-            }
-    }
-    bool meets(std::size_t i) const noexcept { return end_below[i] <= 0 && begin_above[i] < 0; }
-    std::size_t meeting() const noexcept {
-        std::size_t count = 0;
-        for (std::size_t i = 0; i < 4; ++i)
-            count +=
-                static_cast<std::size_t>(end_below[i] <= 0) & static_cast<std::size_t>(begin_above[i] < 0);
-        return count;
-    }
-};
+// Which of four boxes meet a cube [lo, hi): those that end at lo or above and begin below hi, along all axes.
+void find_meeting(const FourBoxes& boxes, const double (&lo)[3], const double (&hi)[3],
+                  bool (&meets)[4]) noexcept {
+    double end_below[4], begin_above[4]; // how far, along the axis where that is most
+    for (std::size_t i = 0; i < 4; ++i) end_below[i] = begin_above[i] = -endless;
+    for (int a = 0; a < 3; ++a)
+        for (std::size_t i = 0; i < 4; ++i) {
+            end_below[i] = std::max(end_below[i], lo[a] - boxes.hi[a][i]);
+            begin_above[i] = std::max(begin_above[i], boxes.lo[a][i] - hi[a]);
+        }
+    for (std::size_t i = 0; i < 4; ++i) meets[i] = bool(int(end_below[i] <= 0) & int(begin_above[i] < 0));
+}
 
 bool is_inside(const PlainBox& box, const double (&lo)[3], const double (&hi)[3]) noexcept {
     bool inside = true;
@@ -148,22 +138,24 @@ bool is_inside(const PlainBox& box, const double (&lo)[3], const double (&hi)[3]
 
 } // namespace
 
-double SampleTree::count_meeting(const double (&lo)[3], double side, double rough) const noexcept {
+double SampleTree::count_meeting(const double (&lo)[3], double side, double rough,
+                                 double enough) const noexcept {
     const double hi[3] = {lo[0] + side, lo[1] + side, lo[2] + side};
     double count = 0;
     Place stack[most_stacked];
     int top = 0;
     stack[top++] = {levels_ - 1, 0};
-    while (top > 0) {
+    while (top > 0 && count < enough) {
         const Place p = stack[--top];
         const FourBoxes& group = groups_[first_[p.level] + p.group];
-        const FourDistances distances(group, lo, hi);
+        bool meets[4];
+        find_meeting(group, lo, hi, meets);
         if (p.level == 0) {
-            count += static_cast<double>(distances.meeting());
+            count += static_cast<double>(int{meets[0]} + int{meets[1]} + int{meets[2]} + int{meets[3]});
             continue;
         }
         for (std::size_t i = 0; i < 4; ++i) {
-            if (!distances.meets(i)) continue;
+            if (!meets[i]) continue;
             const Place child{p.level - 1, 4 * p.group + i};
             const auto most = static_cast<double>(boxes_in(child));
             if (most <= rough * count)
@@ -175,24 +167,6 @@ double SampleTree::count_meeting(const double (&lo)[3], double side, double roug
         }
     }
     return count;
-}
-
-bool SampleTree::meets_any(const double (&lo)[3], double side) const noexcept {
-    const double hi[3] = {lo[0] + side, lo[1] + side, lo[2] + side};
-    Place stack[most_stacked];
-    int top = 0;
-    stack[top++] = {levels_ - 1, 0};
-    while (top > 0) {
-        const Place p = stack[--top];
-        const FourBoxes& group = groups_[first_[p.level] + p.group];
-        const FourDistances distances(group, lo, hi);
-        for (std::size_t i = 0; i < 4; ++i) {
-            if (!distances.meets(i)) continue;
-            if (p.level == 0 || is_inside(group.get(i), lo, hi)) return true;
-            stack[top++] = {p.level - 1, 4 * p.group + i};
-        }
-    }
-    return false;
 }
 
 // ---- asking ---------------------------------------------------------------------------------------
@@ -292,7 +266,7 @@ void add_neighbours(const PlainBox& a, const PlainBox& b, double weight, Piecewi
 } // namespace
 
 PiecewiseMoments sum_pairs(const SampleTree& from, const Array<Asking>& asking, const SampleTree& held,
-                           double coarse, Meeting meeting, bool same_set, std::pmr::memory_resource* memory) {
+                           double coarse, bool around, bool same_set, std::pmr::memory_resource* memory) {
     PlainBox bounds = from.bounds();
     bounds.include(held.bounds());
     const double longest = bounds.longest_side();
@@ -307,8 +281,7 @@ PiecewiseMoments sum_pairs(const SampleTree& from, const Array<Asking>& asking, 
                              double weights[4];
                              for (std::size_t i = 0; i < 4; ++i)
                                  weights[i] = same_set && ids[i] == id ? 0 : each * numbers[i];
-                             if (meeting == Meeting::in_cells)
-                                 return add_common_cells(box, others, weights, sums);
+                             if (!around) return add_common_cells(box, others, weights, sums);
                              for (std::size_t i = 0; i < 4; ++i)
                                  if (weights[i] > 0) add_neighbours(box, others.get(i), weights[i], sums);
                          });
@@ -319,8 +292,9 @@ PiecewiseMoments sum_pairs(const SampleTree& from, const Array<Asking>& asking, 
 
 // ---- what is in cells -----------------------------------------------------------------------------
 
-SomeCell some_cell(const PlainBox& box, double d, bool around, std::uint64_t& random) noexcept {
-    SomeCell cell{{}, 1};
+double some_cell(const PlainBox& box, double d, bool around, std::uint64_t& random,
+                 double (&lo)[3]) noexcept {
+    double of = 1;
     for (int a = 0; a < 3; ++a) {
         const double before = next_unit(random) * d; // from a plane of the lattice to the box
         double first = 0, count = std::floor((before + box.side(a)) / d) + 1;
@@ -328,26 +302,37 @@ SomeCell some_cell(const PlainBox& box, double d, bool around, std::uint64_t& ra
             first = -1;
             count += 2;
         }
-        cell.lo[a] = box.lo[a] - before + (first + std::floor(next_unit(random) * count)) * d;
-        cell.of *= count;
+        lo[a] = box.lo[a] - before + (first + std::floor(next_unit(random) * count)) * d;
+        of *= count;
     }
-    return cell;
+    return of;
 }
 
-double CellCounts::none() const noexcept {
-    const double m = mean_ / weight_, q = excess();
-    if (std::abs(q) < 1e-6) return std::exp(-m);
-    return std::exp(-m / q * std::log1p(q)); // (1 + q)^(-m / q)
+namespace {
+
+double power_of_none(double m, double q) noexcept { // (1 + q)^(-m / q)
+    return std::abs(q) < 1e-6 ? std::exp(-m) : std::exp(-m / q * std::log1p(q));
 }
 
 // The integral of the generating function (1 + q (1 - s))^(-m / q) from 0 to 1.
-double CellCounts::mean_inverse() const noexcept {
-    const double m = mean_ / weight_, q = excess();
+double integral(double m, double q) noexcept {
     if (m < 1e-9) return 1;
     if (std::abs(q) < 1e-6) return -std::expm1(-m) / m;
     const double power = 1 - m / q;
     if (std::abs(power) < 1e-6) return std::log1p(q) / q;
     return std::expm1(power * std::log1p(q)) / (power * q);
+}
+
+} // namespace
+
+double CellCounts::none() const noexcept {
+    if (weight_ == 0) return known_ / known_weight_;
+    return power_of_none(mean_ / weight_, excess());
+}
+
+double CellCounts::mean_inverse() const noexcept {
+    return (known_ + (weight_ > 0 ? weight_ * integral(mean_ / weight_, excess()) : 0)) /
+           (known_weight_ + weight_);
 }
 
 // The variance over the mean, less 1; at least what a number of things can have that are in the cell or not.
@@ -356,24 +341,23 @@ double CellCounts::excess() const noexcept {
     return m > 0 ? std::max(factorial_ / weight_ / m - m, -0.9) : 0;
 }
 
-void OccupiedShare::look(const SampleTree& own, const SampleTree* other, const Array<Asking>& chosen,
-                         std::size_t cells, double rough) noexcept {
+void look_at_entries(const SampleTree& own, const SampleTree* other, const Array<Asking>& chosen,
+                     std::size_t cells, double size, double rough, double crowd, std::uint64_t& random,
+                     CellCounts& counts) noexcept {
     const double p = own.share(), q = other ? other->share() : 1;
     const bool all_kept = p == 1 && q == 1;
     for (std::size_t i = 0; i < cells; ++i) {
         const Asking& one = chosen[i * chosen.size() / cells];
-        const SomeCell cell = some_cell(own.box(one.index), size_, false, random_);
-        const double weight = one.weight * cell.of * static_cast<double>(chosen.size());
-        const double a = std::max(own.count_meeting(cell.lo, size_, rough) - 1, 0.0); // beside itself
-        const double b = other ? other->count_meeting(cell.lo, size_, rough) : 0;
-        if (all_kept || a + b > crowd_) {
-            entries_ += weight;
-            cells_ += weight / (1 + a / p + b / q);
-        } else {
-            others_ += weight;
-            counts_.add(weight, a / p + b / q,
-                        a * (a - 1) / (p * p) + 2 * a * b / (p * q) + b * (b - 1) / (q * q));
-        }
+        double lo[3];
+        const double weight = one.weight * some_cell(own.box(one.index), size, false, random, lo) *
+                              static_cast<double>(chosen.size());
+        const double a = std::max(own.count_meeting(lo, size, rough) - 1, 0.0); // beside itself
+        const double b = other ? other->count_meeting(lo, size, rough) : 0;
+        if (all_kept || a + b > crowd)
+            counts.add_known(weight, weight / (1 + a / p + b / q));
+        else
+            counts.add_part(weight, a / p + b / q,
+                            a * (a - 1) / (p * p) + 2 * a * b / (p * q) + b * (b - 1) / (q * q));
     }
 }
 

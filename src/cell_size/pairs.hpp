@@ -55,22 +55,6 @@ struct PlainBox {
     }
 };
 
-// Some of the boxes of a list.
-struct BoxSample {
-    explicit BoxSample(std::pmr::memory_resource* memory) : boxes(memory), ids(memory) {}
-    void reserve(std::size_t count) {
-        boxes.reserve(count);
-        ids.reserve(count);
-    }
-    void add(const PlainBox& box, std::uint32_t id) {
-        boxes.push_back(box);
-        ids.push_back(id);
-    }
-
-    Array<PlainBox> boxes;
-    Array<std::uint32_t> ids; // ascending
-};
-
 // Four boxes side by side: compilers make vectors of loops over them.
 struct FourBoxes {
     double lo[3][4], hi[3][4];
@@ -98,8 +82,21 @@ inline constexpr FourBoxes no_boxes{{{endless, endless, endless, endless},
 // Boxes in an order along which neighbours are near, with the boxes of each 4, 16, 64, ... of them.
 class SampleTree {
 public:
-    // Of boxes that are `share` of all there are. With `centres`, of their centres.
-    SampleTree(const BoxSample& sample, bool centres, double share, std::pmr::memory_resource* memory);
+    explicit SampleTree(std::pmr::memory_resource* memory) : added_(memory), groups_(memory), ids_(memory) {}
+
+    // Boxes are added in the order of their ids, which are less than 2^32.
+    void reserve(std::size_t count) {
+        added_.reserve(count);
+        ids_.reserve(count);
+    }
+    void add(const PlainBox& box, std::uint64_t id) {
+        added_.push_back(box);
+        ids_.push_back(static_cast<std::uint32_t>(id));
+    }
+    const Array<PlainBox>& added() const noexcept { return added_; }
+    // Call once, after the last add(), of some of `of_all` boxes. Keeps about `most` of them, or their
+    // centres.
+    void build(bool centres, double of_all, std::uint64_t most = ~std::uint64_t{0});
 
     std::size_t size() const noexcept { return ids_.size(); }
     double share() const noexcept { return share_; }
@@ -154,10 +151,14 @@ public:
         }
     }
 
-    // How many boxes meet a cube [lo, lo + side) along each axis. Of groups on its boundary that are smaller
-    // than `rough` times what was found before, half are taken to meet it.
-    double count_meeting(const double (&lo)[3], double side, double rough) const noexcept;
-    bool meets_any(const double (&lo)[3], double side) const noexcept;
+    // How many boxes meet a cube [lo, lo + side) along each axis; at least `enough` where there are more. Of
+    // groups on its boundary that are smaller than `rough` times what was found before, half are taken to
+    // meet it.
+    double count_meeting(const double (&lo)[3], double side, double rough,
+                         double enough = endless) const noexcept;
+    bool meets_any(const double (&lo)[3], double side) const noexcept {
+        return count_meeting(lo, side, 0, 1) > 0;
+    }
 
 private:
     struct Place { // a group of four boxes, each of which holds a group of the level below
@@ -179,10 +180,11 @@ private:
 
     std::size_t levels_ = 0;
     std::array<std::size_t, most_levels + 1> first_{}; // group of each level; those of the boxes come first
+    Array<PlainBox> added_;                            // until build()
     Array<FourBoxes> groups_;
     Array<std::uint32_t> ids_;
     PlainBox bounds_{};
-    double share_;
+    double share_ = 1;
 };
 
 // Calls add(four boxes, their ids, how many boxes each of them stands for) for boxes around one,
@@ -239,6 +241,14 @@ inline void add_common_cells(const PlainBox& box, const FourBoxes& others, const
 
 // ---- who asks -------------------------------------------------------------------------------------
 
+// A box that asks a part of a list of points, from `first` to before `last`, or all but these.
+struct AskingBox {
+    PlainBox box;
+    std::uint32_t kind;
+    std::uint32_t first, last;
+    double weight; // how many like it there are
+};
+
 // A box that asks, standing for `weight` like it.
 struct Asking {
     std::size_t index; // in a list
@@ -254,32 +264,25 @@ Array<Asking> choose_of_kinds(std::span<const std::uint32_t> kind_of, std::size_
 // By kinds of size and of surroundings.
 Array<Asking> choose_asking(const SampleTree& tree, std::size_t wanted, std::pmr::memory_resource* memory);
 
-enum class Meeting : std::uint8_t {
-    in_cells,      // of boxes: cells in common
-    in_neighbours, // of points: whether their cells are the same or neighbours
-};
-
 // Sums over all pairs of boxes in `asking`, a part of those in `from`, and boxes in `held`, as coarsely as
-// SampleTree::sample_around. With `same_set`, pairs of a box with itself (the same id) are left out.
+// SampleTree::sample_around: cells in common, or with `around`, of points, whether their cells are the same
+// or neighbours. With `same_set`, pairs of a box with itself (the same id) are left out.
 PiecewiseMoments sum_pairs(const SampleTree& from, const Array<Asking>& asking, const SampleTree& held,
-                           double coarse, Meeting meeting, bool same_set, std::pmr::memory_resource* memory);
+                           double coarse, bool around, bool same_set, std::pmr::memory_resource* memory);
 
 // ---- what is in cells -----------------------------------------------------------------------------
 
-// One of the cells that a box meets in a lattice of some position, all equally likely.
-struct SomeCell {
-    double lo[3];
-    double of; // how many there are
-};
-// With `around`, of these and of all their neighbours.
-SomeCell some_cell(const PlainBox& box, double d, bool around, std::uint64_t& random) noexcept;
-
-// How many are in a cell, N, from cells in which only a part of all was counted. A count of a part p of them
-// has p times the mean of N, and p^2 times the mean of N (N - 1). With these two, N is taken to follow a
-// negative binomial distribution, or a binomial one where it varies less than by chance.
+// How many are in a cell, N, from cells that are sampled. In some, N is known, or what it is asked for. In
+// the others only a part of all was counted: a count of a part p of them has p times the mean of N, and p^2
+// times the mean of N (N - 1). With these two, N is taken to follow a negative binomial distribution, or a
+// binomial one where it varies less than by chance.
 class CellCounts {
 public:
-    void add(double weight, double n, double n_times_less_one) noexcept {
+    void add_known(double weight, double weighted) noexcept {
+        known_weight_ += weight;
+        known_ += weighted;
+    }
+    void add_part(double weight, double n, double n_times_less_one) noexcept {
         weight_ += weight;
         mean_ += weight * n;
         factorial_ += weight * n_times_less_one;
@@ -289,29 +292,21 @@ public:
 
 private:
     double excess() const noexcept;
+    double known_weight_ = 0, known_ = 0;
     double weight_ = 0, mean_ = 0, factorial_ = 0;
 };
 
-// Occupied cells for each entry of a box in a cell, at one cell size. Where the trees have only a part of all
-// boxes, cells with more than `crowd` boxes of these count by themselves, and the others together.
-class OccupiedShare {
-public:
-    explicit OccupiedShare(double cell_size, double crowd = endless) : size_(cell_size), crowd_(crowd) {}
-    // Looks at the cells of `cells` of the chosen boxes of a tree, as roughly as SampleTree::count_meeting.
-    // `other`: a further tree that is in the same cells, or null.
-    void look(const SampleTree& own, const SampleTree* other, const Array<Asking>& chosen, std::size_t cells,
-              double rough) noexcept;
-    double value() const noexcept {
-        return (cells_ + (others_ > 0 ? others_ * counts_.mean_inverse() : 0)) / (entries_ + others_);
-    }
+// Sets the lower corner of one of the cells that a box meets in a lattice of some position, all equally
+// likely, and returns how many there are. With `around`, of these and of all their neighbours.
+double some_cell(const PlainBox& box, double d, bool around, std::uint64_t& random, double (&lo)[3]) noexcept;
 
-private:
-    double size_, crowd_;
-    std::uint64_t random_ = 4;
-    double entries_ = 0, cells_ = 0; // of cells that count by themselves
-    double others_ = 0;              // entries in the others
-    CellCounts counts_;
-};
+// Looks at cells of `cells` of the chosen boxes of a tree, as roughly as SampleTree::count_meeting, for
+// occupied cells for each entry of a box in a cell: `counts.mean_inverse()`. `other`: a further tree that is
+// in the same cells, or null. Where the trees have only a part of all boxes, cells with more than `crowd`
+// boxes of these count by themselves, and the others together.
+void look_at_entries(const SampleTree& own, const SampleTree* other, const Array<Asking>& chosen,
+                     std::size_t cells, double size, double rough, double crowd, std::uint64_t& random,
+                     CellCounts& counts) noexcept;
 
 // A share that takes long to count, from its values at sizes an octave apart.
 class ShareTable {

@@ -34,12 +34,12 @@ double PaperModel::best_x() const noexcept {
     return 1.0 / 12 + std::cosh(std::acosh(1 + 216 * c) / 3) / 6;
 }
 
-CostMinimum PaperModel::minimum() const { return {best_x() * s_, cost(best_x())}; }
+vox_cost_sample PaperModel::minimum() const { return {best_x() * s_, cost(best_x())}; }
 
 // In x, so that no unit of length changes the result. z falls before the minimum and rises after it, without
 // bound, so the range is only there to keep numbers finite.
 CellSizeRange PaperModel::zone(double loss) const {
-    const CostMinimum best{best_x(), cost(best_x())};
+    const vox_cost_sample best{best_x(), cost(best_x())};
     const auto of_x = [this](double x) { return cost(x); };
     const CellSizeRange zone = zone_around(best, (1 + loss) * best.cost, of_size(of_x),
                                            {best.cell_size * 1e-100, best.cell_size * 1e100});

@@ -21,7 +21,7 @@ public:
     PaperModel(const CellSizeScene& scene, const vox_cell_size_desc& desc);
 
     double operator()(double cell_size) const { return cost(cell_size / s_); }
-    CostMinimum minimum() const;
+    vox_cost_sample minimum() const;
     // Cell sizes whose cost is at most (1 + loss) times the least.
     CellSizeRange zone(double loss) const;
     CostTerms terms(double cell_size) const;

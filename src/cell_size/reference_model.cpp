@@ -22,6 +22,12 @@ constexpr double few_cells = 512;
 // With more sampled vertices than this in a cell, the number of all in it is known well enough.
 constexpr double crowd = 4;
 
+constexpr const char* work_names[] = {"visit a cell",  "list of another length", "scan an occupied cell",
+                                      "read a vertex", "fetch a vertex",         "test a box"};
+constexpr double CostWeights::*work_weights[] = {&CostWeights::visit_cell,   &CostWeights::changed_list,
+                                                 &CostWeights::scan_cell,    &CostWeights::read_vertex,
+                                                 &CostWeights::fetch_vertex, &CostWeights::test_box};
+
 Box box_of(const Body& body) {
     Box box = empty_box;
     for (std::uint32_t v = 0; v < body.vertex_count; ++v) {
@@ -75,7 +81,7 @@ ReferenceModel::ReferenceModel(const CellSizeScene& scene, bool dense, const Cos
         vertices_ += static_cast<double>(body.vertex_count);
         tets_ += static_cast<double>(body.tets.size());
     }
-    const Array<TetBox> boxes = sample_boxes(scene);
+    const Array<AskingBox> boxes = sample_boxes(scene);
     if (classes_.empty()) return;
     int smallest = classes_[0].exponent, largest = smallest;
     for (const SizeClass& c : classes_) {
@@ -87,7 +93,7 @@ ReferenceModel::ReferenceModel(const CellSizeScene& scene, bool dense, const Cos
     count_points(scene, boxes);
 }
 
-Array<ReferenceModel::TetBox> ReferenceModel::sample_boxes(const CellSizeScene& scene) {
+Array<AskingBox> ReferenceModel::sample_boxes(const CellSizeScene& scene) {
     Array<Box> of_bodies(scene.memory);
     Box all = empty_box;
     for (const Body& body : scene.bodies) {
@@ -100,7 +106,7 @@ Array<ReferenceModel::TetBox> ReferenceModel::sample_boxes(const CellSizeScene& 
     fast::find_pairs(of_bodies, {.bodies = scene.bodies}, buffers, pairs);
     const fast::Pair* pair = pairs.data(); // sorted by a
     const fast::Pair* const last_pair = pair + pairs.size();
-    Array<TetBox> boxes(scene.memory);
+    Array<AskingBox> boxes(scene.memory);
     std::uint32_t first = 0;
     for (std::uint32_t b = 0; b < scene.bodies.size(); first += scene.bodies[b].vertex_count, ++b) {
         const Body& body = scene.bodies[b];
@@ -139,34 +145,33 @@ ReferenceModel::SizeClass& ReferenceModel::class_of(double side, bool may_meet) 
     return classes_.emplace_back(exponent, may_meet, classes_.memory());
 }
 
-void ReferenceModel::count_points(const CellSizeScene& scene, const Array<TetBox>& boxes) {
+void ReferenceModel::count_points(const CellSizeScene& scene, const Array<AskingBox>& boxes) {
     std::pmr::memory_resource* const memory = scene.memory;
-    BoxSample sample(memory);
     const auto vertices = static_cast<std::uint64_t>(vertices_);
+    SampleTree& sample = points_.emplace(memory);
     sample.reserve(static_cast<std::size_t>(std::min(vertices, budget_.held)));
     const Body* body = scene.bodies.data();
     std::uint64_t first = 0; // of its vertices
     for_stratified(vertices, budget_.held, 0.5, [&](std::uint64_t v) {
         while (v >= first + body->vertex_count) first += body++->vertex_count;
         const Vec3d p = body->positions[static_cast<std::size_t>(v - first)];
-        sample.add({{p.x, p.y, p.z}, {p.x, p.y, p.z}}, static_cast<std::uint32_t>(v));
+        sample.add({{p.x, p.y, p.z}, {p.x, p.y, p.z}}, v);
     });
-    points_.emplace(sample, false, static_cast<double>(sample.ids.size()) / vertices_, memory);
+    sample.build(false, vertices_);
 
     Array<std::uint32_t> kinds(memory);
     kinds.reserve(boxes.size());
-    for (const TetBox& box : boxes) kinds.push_back(box.in_class);
+    for (const AskingBox& box : boxes) kinds.push_back(box.kind);
     std::uint64_t random = 2;
     for (const Asking& ask : choose_of_kinds(kinds, budget_.chosen, 1, memory)) {
-        const TetBox& own = boxes[ask.index];
-        SizeClass& c = classes_[own.in_class];
+        const AskingBox& own = boxes[ask.index];
+        SizeClass& c = classes_[own.kind];
         const double each = ask.weight * own.weight / points_->share();
         for_fours_around(own.box, *points_, budget_.coarse, random,
                          [&](const FourBoxes& others, const std::uint32_t* ids, const double* numbers_of) {
                              double of_passed[4], of_tested[4], any_tested = 0;
                              for (std::size_t i = 0; i < 4; ++i) {
-                                 const bool is_passed =
-                                     ids[i] >= own.first_passed && ids[i] < own.last_passed;
+                                 const bool is_passed = ids[i] >= own.first && ids[i] < own.last;
                                  of_passed[i] = is_passed ? each * numbers_of[i] : 0;
                                  of_tested[i] = is_passed ? 0 : each * numbers_of[i];
                                  any_tested += of_tested[i];
@@ -209,9 +214,11 @@ double ReferenceModel::occupied(double cell_size) const {
     if (points_chosen_.empty())
         points_chosen_ = choose_asking(*points_, budget_.chosen, points_chosen_.memory());
     const double share = occupied_shares_->at(cell_size, [this](double d) {
-        OccupiedShare of_cells(d, crowd);
-        of_cells.look(*points_, nullptr, points_chosen_, budget_.cells, budget_.rough);
-        return of_cells.value();
+        std::uint64_t random = 4;
+        CellCounts counts;
+        look_at_entries(*points_, nullptr, points_chosen_, budget_.cells, d, budget_.rough, crowd, random,
+                        counts);
+        return counts.mean_inverse();
     });
     return std::max(share * vertices_, 1.0);
 }
@@ -224,46 +231,24 @@ double ReferenceModel::candidates() const noexcept {
 
 // Where the boxes meet more cells than are occupied, those are scanned instead.
 ReferenceModel::Work ReferenceModel::work(const SizeClass& c, double cell_size) const {
-    Work work;
-    const double cells = c.cells.at(cell_size), passed = c.passed.at(cell_size);
-    work.tested = c.tested.at(cell_size);
-    work.read = passed + work.tested;
-    work.fetched = passed * c.apart / c.count;
+    const double cells = c.cells.at(cell_size), passed = c.passed.at(cell_size),
+                 tested = c.tested.at(cell_size), read = passed + tested,
+                 fetched = passed * c.apart / c.count;
     const double scanned = cells > few_cells * c.count ? occupied(cell_size) * c.count : cells;
-    if (cells > scanned) {
-        work.scanned = scanned;
-    } else {
-        work.visited = cells;
-        work.changed = cells * (1 - std::pow(1 + 2.5 * work.read / cells, -0.8));
-    }
-    return work;
-}
-
-ReferenceModel::Work ReferenceModel::work(double cell_size) const {
-    Work sum;
-    for (const SizeClass& c : classes_) {
-        const Work own = work(c, cell_size);
-        sum.visited += own.visited;
-        sum.changed += own.changed;
-        sum.scanned += own.scanned;
-        sum.read += own.read;
-        sum.fetched += own.fetched;
-        sum.tested += own.tested;
-    }
-    return sum;
+    if (cells > scanned) return {0, 0, scanned, read, fetched, tested};
+    return {cells, cells * (1 - std::pow(1 + 2.5 * read / cells, -0.8)), 0, read, fetched, tested};
 }
 
 CostTerms ReferenceModel::terms(double cell_size) const {
-    const Work w = work(cell_size);
+    Work sum{};
+    for (const SizeClass& c : classes_) {
+        const Work own = work(c, cell_size);
+        for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += own[i];
+    }
     CostTerms terms;
     terms.add("classify a vertex", vertices_, weights_.classify_vertex);
     terms.add("prepare a tet", tets_, weights_.prepare_tet);
-    terms.add("visit a cell", w.visited, weights_.visit_cell);
-    terms.add("list of another length", w.changed, weights_.changed_list);
-    terms.add("scan an occupied cell", w.scanned, weights_.scan_cell);
-    terms.add("read a vertex", w.read, weights_.read_vertex);
-    terms.add("fetch a vertex", w.fetched, weights_.fetch_vertex);
-    terms.add("test a box", w.tested, weights_.test_box);
+    for (std::size_t i = 0; i < sum.size(); ++i) terms.add(work_names[i], sum[i], weights_.*work_weights[i]);
     terms.add("handle one in the box", candidates(), weights_.test_tet);
     terms.add("clear a bucket", buckets(cell_size), weights_.clear_bucket);
     return terms;
@@ -275,9 +260,9 @@ double ReferenceModel::of_grid(double cell_size) const noexcept {
 
 double ReferenceModel::of_class(const SizeClass& c, double cell_size) const {
     const Work w = work(c, cell_size);
-    return w.visited * weights_.visit_cell + w.changed * weights_.changed_list +
-           w.scanned * weights_.scan_cell + w.read * weights_.read_vertex +
-           w.fetched * weights_.fetch_vertex + w.tested * weights_.test_box;
+    double sum = 0;
+    for (std::size_t i = 0; i < w.size(); ++i) sum += w[i] * (weights_.*work_weights[i]);
+    return sum;
 }
 
 double ReferenceModel::shared() const noexcept {

@@ -25,6 +25,7 @@
 
 #include <vox/vox_cell_size.h>
 
+#include <array>
 #include <optional>
 #include <span>
 
@@ -61,12 +62,9 @@ public:
     // bytes); 0 where all of the range does.
     double least_cell_size(double byte_limit, const CellSizeRange& range) const noexcept;
 
-    // How often each piece of work is done that depends on the cell size.
-    struct Work {
-        double visited = 0, changed = 0, scanned = 0; // cells
-        double read = 0, fetched = 0, tested = 0;     // vertices
-    };
-    Work work(double cell_size) const;
+    // How often each piece of work is done that depends on the cell size: cells visited, changed, scanned,
+    // and vertices read, fetched, tested.
+    using Work = std::array<double, 6>;
     double candidates() const noexcept;      // C
     double occupied(double cell_size) const; // cells with a vertex in them
 
@@ -79,17 +77,11 @@ public:
     const Array<SizeClass>& classes() const noexcept { return classes_; }
 
 private:
-    // One that asks. The vertices of all bodies are numbered one body after the other.
-    struct TetBox {
-        PlainBox box;
-        std::uint32_t in_class;
-        std::uint32_t first_passed, last_passed; // [first, last)
-        double weight;                           // how many like it there are
-    };
-
-    Array<TetBox> sample_boxes(const CellSizeScene& scene);
+    // The boxes' kinds are classes. They pass over some of the vertices of all bodies, which are numbered one
+    // body after the other.
+    Array<AskingBox> sample_boxes(const CellSizeScene& scene);
     SizeClass& class_of(double side, bool may_meet);
-    void count_points(const CellSizeScene& scene, const Array<TetBox>& boxes);
+    void count_points(const CellSizeScene& scene, const Array<AskingBox>& boxes);
     Work work(const SizeClass& c, double cell_size) const;
     double dense_cells(double cell_size) const noexcept;
     double buckets(double cell_size) const noexcept;

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -86,7 +88,7 @@ std::pair<double, double> golden_section(const CostFunction& cost, double a, dou
 
 } // namespace
 
-CostMinimum minimise(const CostFunction& cost, const CellSizeRange& range, const Fineness& fineness) {
+vox_cost_sample minimise(const CostFunction& cost, const CellSizeRange& range, const Fineness& fineness) {
     const double low = std::log2(range.min), high = std::log2(range.max);
     const int scans = static_cast<int>(std::clamp((high - low) * fineness.scans_per_octave,
                                                   double(fineness.least_scans), double{most_scans}));
@@ -99,7 +101,7 @@ CostMinimum minimise(const CostFunction& cost, const CellSizeRange& range, const
     return {size_at(place(best.second), range), best.first};
 }
 
-CellSizeRange zone_around(const CostMinimum& minimum, double limit, const CostFunction& cost,
+CellSizeRange zone_around(const vox_cost_sample& minimum, double limit, const CostFunction& cost,
                           const CellSizeRange& range, const Fineness& fineness) {
     // Steps away from the minimum until the cost is above the limit.
     const auto end = [&](double step, double last) {
@@ -133,8 +135,16 @@ void draw_curve(const CostFunction& cost, const CellSizeRange& range,
 
 void write_terms(const CostTerms& terms, double scale, vox_cell_size_result& result) noexcept {
     result.term_count = 0;
-    for (const CostTerm& term : terms)
-        result.terms[result.term_count++] = {term.name, term.count, scale * term.count * term.weight};
+    for (const vox_cost_term& term : terms)
+        result.terms[result.term_count++] = {term.name, term.count, scale * term.cost};
+}
+
+void add_warning(vox_cell_size_result& result, vox_cell_size_warnings warning,
+                 const std::string& text) noexcept {
+    result.warnings |= static_cast<std::uint32_t>(warning);
+    const std::size_t used = std::strlen(result.note);
+    (void)std::snprintf(result.note + used, sizeof result.note - used, "%s%s", used > 0 ? "; " : "",
+                        text.c_str());
 }
 
 // ---- cost functions of users ------------------------------------------------------------------------
@@ -148,7 +158,7 @@ vox_cell_size_result minimise_within(const std::function<double(double cell_size
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("zone_loss is %g, expected a number from 0 to 1e6", zone_loss));
     const CostFunction cost = [&](double place) { return cost_at(size_at(place, range)); };
-    const CostMinimum best = minimise(cost, range);
+    const vox_cost_sample best = minimise(cost, range);
     if (!std::isfinite(best.cost))
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("no finite cost for a cell size from %g to %g", range.min, range.max));

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <string>
 
 namespace vox {
 
@@ -28,35 +29,25 @@ struct CellSizeRange {
     double min, max; // 0 < min <= max, finite
 };
 
-// A cost at one cell size, term by term: how often a piece of work is done, and what it costs each time.
-struct CostTerm {
-    const char* name; // static text
-    double count;
-    double weight; // nanoseconds each
-};
-
+// A cost at one cell size in nanoseconds, term by term: how often a piece of work is done, and what that
+// costs.
 class CostTerms {
 public:
-    void add(const char* name, double count, double weight) noexcept {
-        terms_[count_++] = {name, count, weight};
+    void add(const char* name, double count, double ns) noexcept {
+        terms_[count_++] = {name, count, count * ns};
     }
 
     double cost() const noexcept {
         double sum = 0;
-        for (const CostTerm& term : *this) sum += term.count * term.weight;
+        for (const vox_cost_term& term : *this) sum += term.cost;
         return sum;
     }
-    const CostTerm* begin() const noexcept { return terms_.data(); }
-    const CostTerm* end() const noexcept { return terms_.data() + count_; }
+    const vox_cost_term* begin() const noexcept { return terms_.data(); }
+    const vox_cost_term* end() const noexcept { return terms_.data() + count_; }
 
 private:
-    std::array<CostTerm, VOX_TERM_CAPACITY> terms_{};
+    std::array<vox_cost_term, VOX_TERM_CAPACITY> terms_{};
     std::uint32_t count_ = 0;
-};
-
-struct CostMinimum {
-    double cell_size;
-    double cost; // infinite where the function is infinite everywhere
 };
 
 // How densely a range is scanned, and how closely the best place of the scan is then refined.
@@ -67,14 +58,20 @@ struct Fineness {
     double zone_tolerance = 1e-12; // of the cost at the ends of a zone
 };
 
-// The least cost in the range, by an even scan and a golden-section search around its best place. Of a
-// function with several minima, those that lie between two places of the scan can be missed.
-CostMinimum minimise(const CostFunction& cost, const CellSizeRange& range, const Fineness& fineness = {});
+// The least cost in the range, infinite where all are, by an even scan and a golden-section search around its
+// best place. Of a function with several minima, those that lie between two places of the scan can be missed.
+vox_cost_sample minimise(const CostFunction& cost, const CellSizeRange& range, const Fineness& fineness = {});
 
 // The interval around the minimum where the cost is at most `limit`, cut to the range. Rises of the cost that
 // lie between two places of the scan can be missed.
-CellSizeRange zone_around(const CostMinimum& minimum, double limit, const CostFunction& cost,
+CellSizeRange zone_around(const vox_cost_sample& minimum, double limit, const CostFunction& cost,
                           const CellSizeRange& range, const Fineness& fineness = {});
+
+// ---- results ----------------------------------------------------------------------------------------
+
+// Adds a warning, and its text to the note, which ends where it is full.
+void add_warning(vox_cell_size_result& result, vox_cell_size_warnings warning,
+                 const std::string& text) noexcept;
 
 // Lists the terms of a result, whose unit is `scale` of theirs.
 void write_terms(const CostTerms& terms, double scale, vox_cell_size_result& result) noexcept;

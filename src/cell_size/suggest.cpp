@@ -71,7 +71,7 @@ double world_edge(const vox_cell_size_desc& desc, const vox_geometry& stats) {
 
 // Everything that is written in the same way for all models. `cost` is below the least one nowhere.
 void write(vox_cell_size_result& result, const vox_cell_size_desc& desc, const Geometry& geometry,
-           const CostMinimum& best, const CellSizeRange& zone, const CostFunction& cost,
+           const vox_cost_sample& best, const CellSizeRange& zone, const CostFunction& cost,
            const CostTerms& terms) {
     const vox_geometry& stats = geometry.stats;
     const double unit = desc.model == VOX_COST_MODEL_PAPER ? 1 : 1e-9; // else nanoseconds become seconds
@@ -96,7 +96,7 @@ void write(vox_cell_size_result& result, const vox_cell_size_desc& desc, const G
 
 vox_cell_size_result suggest_paper(const vox_cell_size_desc& desc, const CellSizeScene& scene) {
     const PaperModel cost(scene, desc);
-    const CostMinimum best = cost.minimum();
+    const vox_cost_sample best = cost.minimum();
     vox_cell_size_result result{};
     write(result, desc, scene.geometry, best, cost.zone(desc.zone_loss), of_size(cost),
           cost.terms(best.cell_size));
@@ -135,9 +135,7 @@ vox_cell_size_result suggest_fast(const vox_cell_size_desc& desc, const CellSize
     const vox_geometry& stats = scene.geometry.stats;
     const FastModel model(scene, weights);
     if (stats.tets == 0 || !(stats.mean_box_side > 0)) throw_no_size(stats);
-    const auto terms = [&](double cell_size) {
-        return model.terms(cell_size, FastModel::Alignment::average);
-    };
+    const auto terms = [&](double cell_size) { return model.terms(cell_size); };
     if (const std::optional<CellSizeRange> range = model.range())
         return suggest_by(desc, scene.geometry, terms, *range, *range);
     // No body is near another one: any size will do, so a usual one for when some are.
@@ -165,7 +163,7 @@ vox_cell_size_result suggest_by(const vox_cell_size_desc& desc, const Geometry& 
                                 const std::function<CostTerms(double cell_size)>& terms,
                                 const CellSizeRange& range, const CellSizeRange& whole) {
     const CostFunction cost = [&](double log_size) { return terms(std::exp2(log_size)).cost(); };
-    const CostMinimum best = minimise(cost, range, model_fineness);
+    const vox_cost_sample best = minimise(cost, range, model_fineness);
     // Sizes between those of the search may cost a little less.
     const CostFunction curve = [&](double log_size) { return std::max(cost(log_size), best.cost); };
     vox_cell_size_result result{};

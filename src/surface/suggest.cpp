@@ -3,7 +3,6 @@
 #include "base/array.hpp"
 #include "base/error.hpp"
 #include "cell_size/foreign/grid.hpp"
-#include "cell_size/foreign/suggest.hpp"
 #include "cell_size/suggest.hpp"
 #include "mesh/facets.hpp"
 #include "mesh/topology.hpp"

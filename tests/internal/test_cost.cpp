@@ -129,6 +129,13 @@ struct Described : CellSizeScene {
     }
 };
 
+double term(const CostTerms& terms, const std::string& name) {
+    for (const vox_cost_term& t : terms)
+        if (t.name == name) return t.count;
+    ck_abort_msg("no term %s", name.c_str());
+    return 0;
+}
+
 // ---- the reference engine -------------------------------------------------------------------------
 
 // The model's counts are means over all positions of the lattice. Where a small dense body meets few cells,
@@ -163,7 +170,8 @@ START_TEST(reference_counts) {
         double predicted_cells = 0;
         for (const auto& c : cost.classes()) predicted_cells += c.cells.at(settings.cell_size);
         ck_near(named, size, "cells", predicted_cells, cells, 0.1);
-        ck_near(named, size, "vertices read", cost.work(settings.cell_size).read, read, 0.1);
+        ck_near(named, size, "vertices read", term(cost.terms(settings.cell_size), "read a vertex"), read,
+                0.1);
         ck_near(named, size, "vertices in boxes", cost.candidates(), in_boxes, 0.1);
         ck_near(named, size, "occupied cells", cost.occupied(settings.cell_size), occupied, 0.35);
     }
@@ -178,11 +186,11 @@ START_TEST(reference_quick_look) {
     scene.prepare();
     const ReferenceModel all(Described(scene), false, shipped_weights);
     const CellSizeRange range = all.range().value();
-    const CostMinimum best = minimise(of_size(all), range, {.scans_per_octave = 16});
+    const vox_cost_sample best = minimise(of_size(all), range, {.scans_per_octave = 16});
     for (const std::uint64_t tets : {tets_of(scene), std::uint64_t{200000}}) {
         const ReferenceModel some(Described(scene, quick(VOX_COST_MODEL_REFERENCE, tets)), false,
                                   shipped_weights);
-        const CostMinimum found = minimise(of_size(some), range, {.scans_per_octave = 16});
+        const vox_cost_sample found = minimise(of_size(some), range, {.scans_per_octave = 16});
         ck_assert_msg(all(found.cell_size) <= 1.02 * best.cost, "%s: quick %g, thorough %g, cost %g over %g",
                       named.name, found.cell_size, best.cell_size, all(found.cell_size), best.cost);
     }
@@ -199,8 +207,8 @@ START_TEST(reference_usual_look) {
     const ReferenceModel some(Described(scene, usual(VOX_COST_MODEL_REFERENCE, tets_of(scene))), false,
                               shipped_weights);
     const CellSizeRange range = all.range().value();
-    const CostMinimum best = minimise(of_size(all), range, {.scans_per_octave = 16});
-    const CostMinimum found = minimise(of_size(some), range, {.scans_per_octave = 16});
+    const vox_cost_sample best = minimise(of_size(all), range, {.scans_per_octave = 16});
+    const vox_cost_sample found = minimise(of_size(some), range, {.scans_per_octave = 16});
     ck_assert_msg(all(found.cell_size) <= 1.04 * best.cost, "%s: %g, thorough %g, cost %g over %g",
                   named.name, found.cell_size, best.cell_size, all(found.cell_size), best.cost);
 }
@@ -236,13 +244,6 @@ double visits_of_other_length(Scene& scene, double cell_size) {
                     }
         }
     return count;
-}
-
-double term(const CostTerms& terms, const std::string& name) {
-    for (const CostTerm& t : terms)
-        if (t.name == name) return t.count;
-    ck_abort_msg("no term %s", name.c_str());
-    return 0;
 }
 
 // The formula takes vertices to be irregular everywhere. It does not know of a fine body that lies in few of
@@ -299,8 +300,7 @@ START_TEST(fast_counts) {
     const FastModel cost(Described(scene, thorough, {}), shipped_weights);
     FastEngine engine(heap);
     for (const double size : {1.0, 1.4, 2.0, 2.8}) {
-        FastModel::Counts predicted;
-        double cells = 0, read = 0;
+        double cells = 0, read = 0, predicted_cells = 0, predicted_read = 0;
         constexpr int sizes = 9;
         for (int i = 0; i < sizes; ++i) {
             vox::Array<Hit> hits(heap);
@@ -310,15 +310,16 @@ START_TEST(fast_counts) {
             settings.cell_size = size * named.unit * std::pow(1.2, (i - 4.0) / sizes);
             settings.winding = false; // the model counts self-collision as if nothing were culled
             engine.detect(scene.bodies(), scene.prepared(), settings, hits, counters, profile);
-            const FastModel::Counts counts = cost.counts(settings.cell_size, FastModel::Alignment::actual);
-            ck_near(named, size, "vertices binned", counts.vertices, double(counters.entries), 0.02);
-            predicted.visited_cells += counts.visited_cells;
-            predicted.read += counts.read;
+            const CostTerms terms = cost.terms(settings.cell_size, true);
+            ck_near(named, size, "vertices binned", term(terms, "bin a vertex"), double(counters.entries),
+                    0.02);
+            predicted_cells += cost.visited_cells(settings.cell_size);
+            predicted_read += term(terms, "read a vertex");
             cells += double(counters.visited_cells);
             read += double(counters.visited_entries);
         }
-        ck_near(named, size, "cells", predicted.visited_cells, cells, 0.1);
-        ck_near(named, size, "vertices read", predicted.read, read, 0.1);
+        ck_near(named, size, "cells", predicted_cells, cells, 0.1);
+        ck_near(named, size, "vertices read", predicted_read, read, 0.1);
     }
 }
 END_TEST
@@ -334,8 +335,8 @@ START_TEST(fast_quick_look) {
     const FastModel all(Described(scene, thorough, {}), shipped_weights);
     const FastModel some(Described(scene, quick(VOX_COST_MODEL_FAST, tets), {}), shipped_weights);
     const CellSizeRange range = all.range().value();
-    const CostMinimum best = minimise(of_size(all), range);
-    const CostMinimum found = minimise(of_size(some), range);
+    const vox_cost_sample best = minimise(of_size(all), range);
+    const vox_cost_sample found = minimise(of_size(some), range);
     ck_assert_msg(all(found.cell_size) <= 1.03 * best.cost, "%s: quick %g, thorough %g, cost %g over %g",
                   named.name, found.cell_size, best.cell_size, all(found.cell_size), best.cost);
 }
@@ -353,19 +354,19 @@ START_TEST(fast_usual_look) {
     sketched.prepare(VOX_COST_MODEL_FAST);
     const FastModel some(sketched, shipped_weights);
     const CellSizeRange range = all.range().value();
-    const CostMinimum best = minimise(of_size(all), range);
-    const CostMinimum found = minimise(of_size(some), range);
+    const vox_cost_sample best = minimise(of_size(all), range);
+    const vox_cost_sample found = minimise(of_size(some), range);
     ck_assert_msg(all(found.cell_size) <= 1.02 * best.cost, "%s: %g, thorough %g, cost %g over %g",
                   named.name, found.cell_size, best.cell_size, all(found.cell_size), best.cost);
-    const auto counts = [&](const FastModel& model) {
-        return model.counts(best.cell_size, FastModel::Alignment::average);
+    const CostTerms sketch = some.terms(best.cell_size), real = all.terms(best.cell_size);
+    const auto check = [&](const char* name, double tolerance) {
+        ck_near(named, best.cell_size, name, term(sketch, name), term(real, name), tolerance);
     };
-    const FastModel::Counts sketch = counts(some), real = counts(all);
-    ck_near(named, best.cell_size, "vertices binned", sketch.vertices, real.vertices, 0.1);
-    if (real.looks < 60) return; // of a small body: too few to be estimated from a sample
-    ck_near(named, best.cell_size, "looks of tiles", sketch.looks, real.looks, 0.15);
-    ck_near(named, best.cell_size, "rows", sketch.rows, real.rows, 0.15);
-    ck_near(named, best.cell_size, "vertices read", sketch.read, real.read, 0.2);
+    check("bin a vertex", 0.1);
+    if (term(real, "visit a tile") < 60) return; // of a small body: too few to be estimated from a sample
+    check("visit a tile", 0.15);
+    check("visit a row", 0.15);
+    check("read a vertex", 0.2);
 }
 END_TEST
 
@@ -375,11 +376,8 @@ START_TEST(fast_bodies_at_rest) {
     scenes[2].fill(scene);
     scene.prepare();
     std::vector<std::uint8_t> at_rest(scene.bodies().size(), 1);
-    const auto counts = [&] {
-        return FastModel(Described(scene, thorough, at_rest), shipped_weights)
-            .counts(2, FastModel::Alignment::actual);
-    };
-    ck_assert_double_eq(counts().vertices, 0);
+    const auto model = [&] { return FastModel(Described(scene, thorough, at_rest), shipped_weights); };
+    ck_assert_double_eq(term(model().terms(2), "bin a vertex"), 0);
     at_rest[0] = 0;
     FastEngine engine(heap);
     vox::Array<Hit> hits(heap);
@@ -394,10 +392,11 @@ START_TEST(fast_bodies_at_rest) {
         break;
     }
     engine.detect(scene.bodies(), scene.prepared(), settings, hits, counters, profile);
-    const FastModel::Counts one = counts();
-    ck_assert_double_gt(one.vertices, 0);
-    ck_near(scenes[2], 2, "vertices binned", one.vertices, double(counters.entries), 0.02);
-    ck_near(scenes[2], 2, "cells", one.visited_cells, double(counters.visited_cells), 0.1);
+    const FastModel one = model();
+    const double binned = term(one.terms(2), "bin a vertex");
+    ck_assert_double_gt(binned, 0);
+    ck_near(scenes[2], 2, "vertices binned", binned, double(counters.entries), 0.02);
+    ck_near(scenes[2], 2, "cells", one.visited_cells(2), double(counters.visited_cells), 0.1);
     for (std::size_t b = 0; b < at_rest.size(); ++b) ck_assert_int_eq(engine.moved(b), !at_rest[b]);
 }
 END_TEST
@@ -418,7 +417,7 @@ START_TEST(levels_where_they_pay) {
     const ReferenceModel cost(Described(unlike), false, shipped_weights);
     range = cost.range().value();
     const Levels levels = choose_levels(cost, range);
-    const CostMinimum uniform = minimise(of_size(cost), range);
+    const vox_cost_sample uniform = minimise(of_size(cost), range);
     ck_assert_uint_ge(levels.count, 2);
     ck_assert_double_lt(levels.cost, 0.8 * uniform.cost);
     ck_assert_double_gt(levels.level[levels.count - 1].cell_size, 3 * levels.level[0].cell_size);

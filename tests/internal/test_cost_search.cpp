@@ -14,7 +14,7 @@ START_TEST(minimum_of_a_power_law) {
         const auto cost = [&](double d) { return a / (d * d * d) + d * d * d; };
         const double expected = std::pow(a, 1.0 / 6);
         const CellSizeRange range{expected * 1e-4, expected * 1e5};
-        const CostMinimum found = minimise(of_size(cost), range);
+        const vox_cost_sample found = minimise(of_size(cost), range);
         ck_assert_double_eq_tol(found.cell_size, expected, 1e-6 * expected);
         const double limit = 1.05 * found.cost;
         const CellSizeRange zone = zone_around(found, limit, of_size(cost), range);
@@ -29,7 +29,7 @@ END_TEST
 START_TEST(zones_and_curves) {
     const auto cost = [](double d) { return 3 / (d * d * d) + 5 / d + 2 + 0.5 * d * d * d; };
     const CellSizeRange range{0.05, 40};
-    const CostMinimum best = minimise(of_size(cost), range);
+    const vox_cost_sample best = minimise(of_size(cost), range);
     const CellSizeRange all = zone_around(best, 1e9 * best.cost, of_size(cost), range);
     const CellSizeRange none = zone_around(best, best.cost, of_size(cost), range);
     ck_assert_double_eq(all.min, range.min);
@@ -60,10 +60,10 @@ START_TEST(minimum_at_an_end_and_where_nothing_is_finite) {
     ck_assert_double_eq(minimise(of_size([](double d) { return d; }), range).cell_size, 0.5);
     ck_assert_double_eq(minimise(of_size([](double d) { return 1 / d; }), range).cell_size, 8);
     ck_assert_double_eq(minimise(of_size([](double d) { return d; }), {3, 3}).cell_size, 3);
-    const CostMinimum none = minimise(of_size([](double) { return std::nan(""); }), range);
+    const vox_cost_sample none = minimise(of_size([](double) { return std::nan(""); }), range);
     ck_assert(std::isinf(none.cost));
     // Not finite on a part of the range: the rest counts.
-    const CostMinimum part =
+    const vox_cost_sample part =
         minimise(of_size([](double d) { return d < 2 ? HUGE_VAL : (d - 4) * (d - 4) + 1; }), range);
     ck_assert_double_eq_tol(part.cell_size, 4, 1e-3);
 }

@@ -1,8 +1,6 @@
 // What a described grid does at a cell size, against a plain grid of that kind that is really filled, over
 // many random positions of its lattice; and how much a quick look loses against a thorough one.
-#include "cell_size/foreign/cost.hpp"
 #include "cell_size/foreign/grid.hpp"
-#include "cell_size/foreign/suggest.hpp"
 #include "internal/counting_memory.hpp"
 #include "internal/random.hpp"
 #include "support/suite.h"

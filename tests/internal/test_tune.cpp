@@ -1,8 +1,7 @@
 // Least squares without negative coefficients, costs fitted to timings, and tuning: over grids whose costs
 // are known, with timings that are as noisy and as wrong as those of machines.
 #include "cell_size/foreign/fit.hpp"
-#include "cell_size/foreign/least_squares.hpp"
-#include "cell_size/foreign/tune.hpp"
+#include "cell_size/foreign/grid.hpp"
 #include "internal/random.hpp"
 #include "support/suite.h"
 
@@ -43,15 +42,18 @@ START_TEST(least_squares_are_least) {
     Random random{11};
     for (int trial = 0; trial < 300; ++trial) {
         const std::size_t columns = 1 + random.below(14), count = 1 + random.below(20);
-        NonNegativeLeastSquares squares(static_cast<int>(columns));
+        NormalEquations equations{};
         std::vector<std::vector<double>> rows(count, std::vector<double>(columns));
         std::vector<double> targets(count);
         for (std::size_t r = 0; r < count; ++r) {
             for (double& value : rows[r]) value = random.uniform(trial % 2 ? 0.f : -1.f, 1);
             targets[r] = random.uniform(-1, 1);
-            squares.add(rows[r], targets[r]);
+            Coefficients row{};
+            std::ranges::copy(rows[r], row.begin());
+            row[columns] = targets[r];
+            add_row(row, equations);
         }
-        const Coefficients x = squares.solve();
+        const Coefficients x = solve_non_negative(equations, columns);
         for (std::size_t i = 0; i < columns; ++i) {
             ck_assert_double_ge(x[i], 0);
             double slope = 0;
@@ -69,15 +71,15 @@ START_TEST(least_squares_are_least) {
 END_TEST
 
 START_TEST(columns_that_say_nothing) {
-    NonNegativeLeastSquares squares(3); // the second is twice the first, the third is 0
-    squares.add(std::vector<double>{1, 2, 0}, 3);
-    squares.add(std::vector<double>{2, 4, 0}, 6);
-    const Coefficients x = squares.solve();
+    NormalEquations equations{}; // the second is twice the first, the third is 0
+    add_row({1, 2, 0, 3}, equations);
+    add_row({2, 4, 0, 6}, equations);
+    const Coefficients x = solve_non_negative(equations, 3);
     ck_assert_double_eq_tol(x[0] + 2 * x[1], 3, 1e-9);
     ck_assert_double_eq(x[2], 0);
-    NonNegativeLeastSquares none(2);
-    none.add(std::vector<double>{0, 0}, 1);
-    ck_assert_double_eq(none.solve()[0], 0);
+    NormalEquations none{};
+    add_row({0, 0, 1}, none);
+    ck_assert_double_eq(solve_non_negative(none, 2)[0], 0);
 }
 END_TEST
 
@@ -135,7 +137,7 @@ START_TEST(fit_of_three_timings) {
                                 1 + random.uniform(-0.04f, 0.04f)};
         std::vector<vox_timing> timings = timings_of(cost, {0.6, 1.2, 2.4});
         for (int i = 0; i < 3; ++i) timings[static_cast<std::size_t>(i)].seconds *= noise[i];
-        const vox_cell_size_result fit = fit_timings(described_basis(work, expected), {}, timings, heap);
+        const vox_cell_size_result fit = fit_timings(described_basis(work, expected), timings, heap);
         ck_assert_double_le(fit.fit_error, 0.05);
         ck_assert_double_le(fit.zone_min, fit.cell_size);
         ck_assert_double_ge(fit.zone_max, fit.cell_size);
@@ -159,7 +161,7 @@ START_TEST(what_cannot_be_told_apart) {
     expected.store = 3;
     expected.visit = 9;
     const vox_cell_size_result fit =
-        fit_timings(described_basis(work, expected), {}, timings_of(cost, {0.5, 0.7, 1, 1.4, 2, 2.8}), heap);
+        fit_timings(described_basis(work, expected), timings_of(cost, {0.5, 0.7, 1, 1.4, 2, 2.8}), heap);
     ck_assert_double_gt(fit.weights.visit, fit.weights.store);
     ck_assert_double_gt(fit.weights.store, 0);
     // A count that is 0 everywhere has its share of what was expected, in proportion.
@@ -169,7 +171,7 @@ START_TEST(what_cannot_be_told_apart) {
         return counts;
     };
     const vox_cell_size_result same =
-        fit_timings(described_basis(without_cells, true_weights), {},
+        fit_timings(described_basis(without_cells, true_weights),
                     timings_of([&](double size) { return 2 * seconds_of(without_cells, true_weights, size); },
                                {0.6, 1.2, 2.4}),
                     heap);
@@ -180,10 +182,9 @@ END_TEST
 
 START_TEST(warnings_of_a_fit) {
     const WorkAt work = boxes_in_cells(1.5, 2e4);
-    const CostBasis basis = described_basis(work, true_weights);
     const Cost cost = [&](double size) { return seconds_of(work, true_weights, size); };
     const auto fit = [&](const std::vector<vox_timing>& timings, double least = 0) {
-        return fit_timings(basis, {least, 0.05}, timings, heap);
+        return fit_timings(described_basis(work, true_weights, least), timings, heap);
     };
     std::vector<vox_timing> timings = timings_of(cost, {0.6, 1.2, 2.4});
     vox_cell_size_result result = fit(timings);
@@ -221,7 +222,7 @@ START_TEST(one_slow_timing) {
     for (std::size_t slow = 0; slow < 5; ++slow) {
         std::vector<vox_timing> timings = timings_of(cost, {0.5, 0.8, 1.3, 2, 3.2});
         timings[slow].seconds *= 2;
-        const vox_cell_size_result fit = fit_timings(described_basis(work, true_weights), {}, timings, heap);
+        const vox_cell_size_result fit = fit_timings(described_basis(work, true_weights), timings, heap);
         ck_assert_double_le(cost(fit.cell_size), 1.05 * least_cost(cost, 1));
     }
 }
@@ -229,13 +230,18 @@ END_TEST
 
 // ---- tuning -----------------------------------------------------------------------------------------
 
-TuneSettings settings_within(const CellSizeRange& range, double first = 1, std::uint32_t max_runs = 7,
-                             double least = 0) {
-    return {{least, default_zone_loss}, max_runs, 0.02, first, range};
+vox_tune_desc tune_within(double min, double max, double first = 1, std::uint32_t max_runs = 7) {
+    vox_tune_desc desc = vox_default_tune_desc();
+    desc.max_runs = max_runs;
+    desc.min = min;
+    desc.max = max;
+    desc.first = first;
+    desc.wanted_loss = 0.02;
+    return desc;
 }
 
-TuneSettings settings_for(double first, std::uint32_t max_runs = 7, double least = 0) {
-    return settings_within({std::max(first / 8, least), 8 * first}, first, max_runs, least);
+vox_tune_desc tune_from(double first, std::uint32_t max_runs = 7) {
+    return tune_within(first / 8, 8 * first, first, max_runs);
 }
 
 // A machine: noise of so much, about normal, and now and then a run that takes twice as long.
@@ -295,8 +301,8 @@ START_TEST(tuned_on_a_noisy_machine) {
                 if (cost(size) < cost(best)) best = size;
             Machine machine{cost, 0.06, 0.1, {trial + 100}};
             const CostBasis basis = described_basis(work, expected);
-            const TuneSettings settings = settings_for(best * std::exp2(random.uniform(-1.6f, 1.6f)));
-            losses.add(tune(is_described ? &basis : nullptr, settings, std::ref(machine), heap), cost, best);
+            const vox_tune_desc desc = tune_from(best * std::exp2(random.uniform(-1.6f, 1.6f)));
+            losses.add(tune(is_described ? basis : CostBasis{}, desc, std::ref(machine), heap), cost, best);
         }
         ck_assert_double_le(losses.at(0.5), 0.01);
         ck_assert_double_le(losses.at(0.9), 0.06);
@@ -314,7 +320,7 @@ START_TEST(tuned_without_disturbances) {
     Losses losses;
     for (std::uint64_t trial = 0; trial < 100; ++trial) {
         Machine machine{cost, 0.06, 0, {trial}};
-        losses.add(tune(&basis, settings_for(1.2), std::ref(machine), heap), cost, 1);
+        losses.add(tune(basis, tune_from(1.2), std::ref(machine), heap), cost, 1);
     }
     ck_assert_double_le(losses.at(0.5), 0.01);
     ck_assert_double_le(losses.at(1), 0.08);
@@ -330,7 +336,7 @@ START_TEST(tuned_with_exact_times) {
     const WorkAt work = boxes_in_cells(2, 2e4);
     const Cost cost = [&](double size) { return seconds_of(work, true_weights, size); };
     const CostBasis basis = described_basis(work, true_weights);
-    const vox_cell_size_result tuning = tune(&basis, settings_for(1), cost, heap);
+    const vox_cell_size_result tuning = tune(basis, tune_from(1), cost, heap);
     ck_assert_uint_le(tuning.timing_count, 5); // it stops by itself
     ck_assert_uint_eq(tuning.warnings, 0);
     ck_assert_double_eq(tuning.timings[0].cell_size, 1);
@@ -345,12 +351,12 @@ START_TEST(tuned_with_exact_times) {
     ck_assert_double_lt(tuning.zone_min, tuning.cell_size);
     ck_assert_double_gt(tuning.zone_max, tuning.cell_size);
     ck_assert_double_le(cost(tuning.zone_max), 1.08 * least_cost(cost, 1));
-    ck_assert(same_bits(tuning, tune(&basis, settings_for(1), cost, heap)));
+    ck_assert(same_bits(tuning, tune(basis, tune_from(1), cost, heap)));
     // Neither the unit of time nor that of length matters.
     for (const double unit : {1e-12, 1e12}) {
         const vox_cell_size_result other = tune(
-            nullptr, settings_for(unit), [&](double size) { return unit * cost(size / unit); }, heap);
-        const vox_cell_size_result plain = tune(nullptr, settings_for(1), cost, heap);
+            {}, tune_from(unit), [&](double size) { return unit * cost(size / unit); }, heap);
+        const vox_cell_size_result plain = tune({}, tune_from(1), cost, heap);
         ck_assert_uint_eq(other.timing_count, plain.timing_count);
         ck_assert_double_eq_tol(other.cell_size / unit, plain.cell_size, 1e-6);
         ck_assert_double_eq_tol(other.expected_loss, plain.expected_loss, 1e-6);
@@ -363,7 +369,7 @@ const Cost valley = [](double size) { return 1e-3 * (1 / (size * size * size) + 
 START_TEST(sizes_that_cannot_run) {
     // Memory for cells of 0.8 and more; the best that can run is there.
     const auto wall = [](double size) { return size < 0.8 ? infinity : size; };
-    vox_cell_size_result tuning = tune(nullptr, settings_for(1), wall, heap);
+    vox_cell_size_result tuning = tune({}, tune_from(1), wall, heap);
     ck_assert_double_le(tuning.cell_size, 0.8 * 1.1);
     ck_assert_double_ge(tuning.cell_size, 0.8);
     ck_assert_uint_ne(tuning.warnings & VOX_CELL_SIZE_STOPPED, 0);
@@ -371,14 +377,14 @@ START_TEST(sizes_that_cannot_run) {
     ck_assert(std::isinf(tuning.timings[1].seconds));
     // The first size cannot, nor can a few others.
     const auto late = [](double size) { return size < 3 ? 1e300 : valley(size / 4); };
-    tuning = tune(nullptr, settings_for(1), late, heap);
+    tuning = tune({}, tune_from(1), late, heap);
     ck_assert_double_ge(tuning.cell_size, 3);
     ck_assert_double_le(tuning.cell_size, 5.5);
     ck_assert_uint_le(tuning.timing_count, 7);
     // None can.
     try {
         (void)tune(
-            nullptr, settings_for(1), [](double) { return infinity; }, heap);
+            {}, tune_from(1), [](double) { return infinity; }, heap);
         ck_abort();
     } catch (const std::exception& error) {
         ck_assert_str_eq(error.what(), "no run succeeded: 7 could not run, the first at cell size 1");
@@ -390,8 +396,8 @@ START_TEST(stopped_and_too_short) {
     for (int runs = 1; runs < 6; ++runs) {
         int left = runs;
         const vox_cell_size_result tuning = tune(
-            nullptr, settings_for(1),
-            [&](double size) { return left-- > 0 ? valley(size) + 1e-4 / size : -1; }, heap);
+            {}, tune_from(1), [&](double size) { return left-- > 0 ? valley(size) + 1e-4 / size : -1; },
+            heap);
         if (runs >= 4) continue; // it may have been sure before
         ck_assert_uint_eq(tuning.timing_count, runs);
         ck_assert_uint_ne(tuning.warnings & VOX_CELL_SIZE_STOPPED, 0);
@@ -404,7 +410,7 @@ START_TEST(stopped_and_too_short) {
         int calls = 0;
         try {
             (void)tune(
-                nullptr, settings_for(1), [&](double) { return ++calls, stop; }, heap);
+                {}, tune_from(1), [&](double) { return ++calls, stop; }, heap);
             ck_abort();
         } catch (const std::exception& error) {
             ck_assert_ptr_nonnull(std::strstr(error.what(), "no run succeeded"));
@@ -413,7 +419,7 @@ START_TEST(stopped_and_too_short) {
     }
     try {
         (void)tune(
-            nullptr, settings_for(1), [](double) { return 0.0; }, heap);
+            {}, tune_from(1), [](double) { return 0.0; }, heap);
         ck_abort();
     } catch (const std::exception& error) {
         ck_assert_ptr_nonnull(std::strstr(error.what(), "run 1, at cell size 1, returned 0 seconds"));
@@ -424,10 +430,10 @@ END_TEST
 START_TEST(ends_of_the_range) {
     // The best size is one that may not be run.
     vox_cell_size_result tuning = tune(
-        nullptr, settings_within({0.9, 4}), [](double size) { return size; }, heap);
+        {}, tune_within(0.9, 4), [](double size) { return size; }, heap);
     ck_assert_double_eq(tuning.cell_size, 0.9);
     tuning = tune(
-        nullptr, settings_within({0.9, 4}), [](double size) { return 1 / size; }, heap);
+        {}, tune_within(0.9, 4), [](double size) { return 1 / size; }, heap);
     ck_assert_double_eq(tuning.cell_size, 4);
     for (std::uint32_t i = 0; i < tuning.timing_count; ++i) {
         ck_assert_double_ge(tuning.timings[i].cell_size, 0.9);
@@ -435,21 +441,21 @@ START_TEST(ends_of_the_range) {
     }
     // The least legal size.
     tuning = tune(
-        nullptr, settings_for(1, 7, 0.97), [](double size) { return size; }, heap);
+        {.least_cell_size = 0.97}, tune_within(0.97, 8), [](double size) { return size; }, heap);
     ck_assert_double_eq(tuning.cell_size, 0.97);
     ck_assert_uint_eq(tuning.warnings, VOX_CELL_SIZE_AT_MINIMUM);
     // One size only.
-    tuning = tune(nullptr, settings_within({1, 1}), valley, heap);
+    tuning = tune({}, tune_within(1, 1), valley, heap);
     ck_assert_uint_eq(tuning.timing_count, 1);
     ck_assert_double_eq(tuning.cell_size, 1);
     ck_assert_double_eq(tuning.expected_loss, 0);
     // It is further away than three runs reach; seven do.
     const auto far = [](double size) { return valley(size / 6); };
-    tuning = tune(nullptr, settings_for(1, 3), far, heap);
+    tuning = tune({}, tune_from(1, 3), far, heap);
     ck_assert_uint_eq(tuning.timing_count, 3);
     ck_assert_double_eq(tuning.cell_size, 2);
     ck_assert_uint_ne(tuning.warnings & VOX_CELL_SIZE_OUT_OF_RANGE, 0);
-    tuning = tune(nullptr, settings_for(1), far, heap);
+    tuning = tune({}, tune_from(1), far, heap);
     ck_assert_double_le(valley(tuning.cell_size / 6), 1.05 * valley(1));
 }
 END_TEST
@@ -459,7 +465,7 @@ END_TEST
 START_TEST(the_least_legal_size) {
     const auto fitted = [](double seconds, double least) {
         const vox_timing timings[] = {{0.73, seconds}, {1.1, 1.7}, {1.65, 4.4}};
-        return fit_timings(power_basis(1), {least, 0.05}, timings, heap).cell_size;
+        return fit_timings(with_powers({.least_cell_size = least}, 1), timings, heap).cell_size;
     };
     ck_assert_double_gt(fitted(1.35, 0), 0.75);
     ck_assert_double_lt(fitted(1.35, 0), 0.9);
@@ -484,7 +490,7 @@ START_TEST(unusual_costs) {
     };
     for (const Cost& cost : costs) {
         for (const std::uint32_t max_runs : {3u, 7u, 32u}) {
-            const vox_cell_size_result tuning = tune(nullptr, settings_for(1.1, max_runs), cost, heap);
+            const vox_cell_size_result tuning = tune({}, tune_from(1.1, max_runs), cost, heap);
             double best = infinity;
             for (std::uint32_t i = 0; i < tuning.timing_count; ++i)
                 best = std::min(best, tuning.timings[i].seconds);
@@ -504,7 +510,7 @@ START_TEST(a_notch_beside_the_minimum) {
         const Cost cost = [=](double size) {
             return valley(size) * (std::fabs(std::log2(size) - at) < 0.1 ? 0.8 : 1);
         };
-        const vox_cell_size_result tuning = tune(nullptr, settings_for(1), cost, heap);
+        const vox_cell_size_result tuning = tune({}, tune_from(1), cost, heap);
         ck_assert_double_eq_tol(std::log2(tuning.cell_size), at, 0.1);
         ck_assert_uint_le(tuning.timing_count, 7);
     }
@@ -521,7 +527,7 @@ START_TEST(costs_with_a_jump) {
             Random random{trial};
             const double at = std::exp2(3 * random.unit() - 1.5), first = std::exp2(2 * random.unit() - 1);
             const Cost cost = [&](double size) { return 1e-3 * (size + 1 / size) * (size > at ? jump : 1); };
-            const vox_cell_size_result tuning = tune(nullptr, settings_for(first), cost, heap);
+            const vox_cell_size_result tuning = tune({}, tune_from(first), cost, heap);
             double best = infinity;
             for (std::uint32_t i = 0; i < tuning.timing_count; ++i)
                 best = std::min(best, tuning.timings[i].seconds);
@@ -551,7 +557,7 @@ START_TEST(one_run_did_nothing) {
             const double seconds[] = {fast, 2.5, 2.5, 4.25, 8.125, 8.125, 8.125};
             int run = 0;
             const vox_cell_size_result tuning = tune(
-                &basis, settings_for(1), [&](double) { return seconds[run++]; }, heap);
+                basis, tune_from(1), [&](double) { return seconds[run++]; }, heap);
             ck_assert(std::isfinite(tuning.cost) && std::isfinite(tuning.expected_loss));
             ck_assert_double_gt(tuning.cost, 0);
         }
@@ -570,7 +576,7 @@ START_TEST(expected_beyond_measure) {
     };
     const CostBasis basis = described_basis(work, {1, 1, 1, 1e38, 1, 0, 0});
     const vox_cell_size_result tuning = tune(
-        &basis, settings_for(4), [](double size) { return size / 4 + 4 / size; }, heap);
+        basis, tune_from(4), [](double size) { return size / 4 + 4 / size; }, heap);
     ck_assert(std::isfinite(tuning.cost) && std::isfinite(tuning.fit_error));
     ck_assert_double_lt(tuning.cost, 100);
 }
@@ -581,7 +587,7 @@ START_TEST(what_is_said_of_noise) {
     int said = 0;
     for (std::uint64_t trial = 0; trial < 20; ++trial) {
         Machine machine{valley, 0.3, 0.3, {trial}};
-        const vox_cell_size_result tuning = tune(nullptr, settings_for(1), std::ref(machine), heap);
+        const vox_cell_size_result tuning = tune({}, tune_from(1), std::ref(machine), heap);
         said += (tuning.warnings & VOX_CELL_SIZE_TIMINGS_DISAGREE) != 0;
     }
     ck_assert_int_ge(said, 12);
@@ -594,7 +600,7 @@ START_TEST(wrong_description) {
     const WorkAt wrong = [&](double size) { return work(64 * size); };
     const CostBasis basis = described_basis(wrong, {0, 1, 1, 0, 50, 0, 0});
     const Cost& cost = valley;
-    const vox_cell_size_result tuning = tune(&basis, settings_for(1), cost, heap);
+    const vox_cell_size_result tuning = tune(basis, tune_from(1), cost, heap);
     ck_assert_uint_ne(tuning.warnings & VOX_CELL_SIZE_MODEL_DISAGREES, 0);
     ck_assert_double_le(cost(tuning.cell_size), 1.05 * least_cost(cost, 1));
 }

@@ -10,7 +10,7 @@ from repository import ROOT, files, text_of
 # Of C and C++ in src/, of all files elsewhere.
 LINES_OF_FOLDER = {
     "src": 46660, "src/base": 3320, "src/exact": 1340, "src/mesh": 4040, "src/reference": 680, "src/fast": 5550,
-    "src/depth": 2930, "src/query": 1540, "src/cell_size": 5890, "src/surface": 3340, "src/grid": 5800, "src/api": 1160,
+    "src/depth": 2930, "src/query": 1540, "src/cell_size": 5460, "src/surface": 3340, "src/grid": 5800, "src/api": 1160,
     "src/io": 8020, "src/sim": 1130, "src/dist": 2070, "src/mpi": 180,
     "tools": 6220, "bench": 10000,
 }
@@ -19,10 +19,10 @@ LINES_OF_FILE = 600  # of a source file in SOURCES
 LINES_OF_FUNCTION = 80
 LINES_OF_STEP = 50  # of vox_grid::step, which reads as a story
 MEMBERS_OF_GRID = 30  # of vox_grid, data alone
-TYPES_OF_FOLDER = {"src/cell_size": 67}
+TYPES_OF_FOLDER = {"src/cell_size": 42}
 
 # What is still to be done, since 2026-11-28; nothing is to be added. A line that is no longer needed is a fault, too.
-LONG_FUNCTIONS = {"src/cell_size/foreign/suggest.cpp": 1}
+LONG_FUNCTIONS = {}
 TYPES_OF_ONE_NAME = set()
 ENGINE_BRANCHES = {}
 

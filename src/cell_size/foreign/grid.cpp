@@ -4,13 +4,12 @@
 #include "base/caller_memory.hpp"
 #include "base/sampling.hpp"
 #include "base/structs.hpp"
-#include "cell_size/foreign/known_grids.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cinttypes>
 #include <cmath>
-#include <iterator>
-#include <string>
 
 namespace vox {
 
@@ -18,15 +17,8 @@ namespace vox {
 
 namespace {
 
-constexpr struct {
-    const char* name;
-    double vox_foreign_weights::*field;
-} weight_fields[] = {
-    {"run", &vox_foreign_weights::run},     {"store", &vox_foreign_weights::store},
-    {"visit", &vox_foreign_weights::visit}, {"found", &vox_foreign_weights::found},
-    {"read", &vox_foreign_weights::read},   {"occupied", &vox_foreign_weights::occupied},
-    {"cell", &vox_foreign_weights::cell},
-};
+constexpr std::array<const char*, std::tuple_size_v<WeightArray>> weight_names{
+    "run", "store", "visit", "found", "read", "occupied", "cell"};
 
 void check_grid_number(bool good, double value, const char* name, const char* expected) {
     if (!good || !std::isfinite(value)) refuse(format("grid %s is %.9g, expected %s", name, value, expected));
@@ -38,10 +30,10 @@ vox_foreign_grid checked(vox_foreign_grid grid) {
     check_enum(grid.cells_queried, VOX_CELLS_QUERIED_PAIRS, "grid cells_queried");
     check_enum(grid.cells_kept, VOX_CELLS_KEPT_DENSE, "grid cells_kept");
     check_enum(grid.known, VOX_KNOWN_GRID_NUMPY, "grid known");
-    const KnownGrid& known = known_grid(grid.known);
-    set_default(grid.cells_stored, known.stored);
-    set_default(grid.cells_queried, known.queried);
-    set_default(grid.cells_kept, known.kept);
+    const vox_foreign_grid& known = known_grid(grid.known);
+    set_default(grid.cells_stored, known.cells_stored);
+    set_default(grid.cells_queried, known.cells_queried);
+    set_default(grid.cells_kept, known.cells_kept);
     if (grid.cells_queried == VOX_CELLS_QUERIED_27 && grid.cells_stored != VOX_CELLS_STORED_CENTRE)
         refuse(
             "grid cells_queried is 27 and cells_stored BOX: 27 cells are visited where cells store centres");
@@ -50,11 +42,10 @@ vox_foreign_grid checked(vox_foreign_grid grid) {
     check_grid_number(grid.min_cell_size >= 0, grid.min_cell_size, "min_cell_size", "0 or a length");
     check_grid_number(grid.zone_loss >= 0 && grid.zone_loss <= 1e6, grid.zone_loss, "zone_loss",
                       "a number from 0 to 1e6");
-    for (const auto& [name, field] : weight_fields) {
-        const double weight = grid.weights.*field;
-        check_grid_number(weight >= 0, weight, (std::string("weights.") + name).c_str(),
+    const auto weights = std::bit_cast<WeightArray>(grid.weights);
+    for (std::size_t i = 0; i < weights.size(); ++i)
+        check_grid_number(weights[i] >= 0, weights[i], format("weights.%s", weight_names[i]).c_str(),
                           "0 or more nanoseconds");
-    }
     check_allocator(grid.allocator, "grid.allocator");
     require(grid.stored, "grid.stored");
     return grid;
@@ -65,8 +56,8 @@ vox_foreign_grid checked(vox_foreign_grid grid) {
 ForeignGrid::ForeignGrid(const vox_foreign_grid* from_caller)
     : desc(checked(read_struct(from_caller, "grid"))), held(read_struct(desc.stored, "stored"), "stored: ") {
     if (desc.querying) asking.emplace(read_struct(desc.querying, "querying"), "querying: ");
-    const bool given = std::any_of(std::begin(weight_fields), std::end(weight_fields),
-                                   [&](const auto& f) { return desc.weights.*f.field > 0; });
+    const auto weights = std::bit_cast<WeightArray>(desc.weights);
+    const bool given = std::any_of(weights.begin(), weights.end(), [](double ns) { return ns > 0; });
     weights_known = given || desc.known != VOX_KNOWN_GRID_NONE;
     if (!weights_known) {
         // A point is in one cell, whatever cells hold.
@@ -82,10 +73,6 @@ ForeignGrid::ForeignGrid(const vox_foreign_grid* from_caller)
 // ---- looking at the primitives --------------------------------------------------------------------
 
 namespace {
-
-double share_of(const BoxSample& sample, const Primitives& primitives) {
-    return static_cast<double>(sample.boxes.size()) / static_cast<double>(primitives.count());
-}
 
 constexpr double curve_octaves = 3;     // that a curve goes beyond the range
 constexpr std::uint64_t measured = 512; // primitives whose edges and sides make the rules
@@ -111,22 +98,48 @@ double mean_edge(const Primitives& primitives) {
     return sum / count;
 }
 
-void set_sides(const BoxSample& sample, ForeignRules& rules, std::pmr::memory_resource* memory) {
-    Array<double> sides(memory);
-    double sum = 0;
-    for_stratified(sample.boxes.size(), measured, 0.5, [&](std::uint64_t i) {
-        sides.push_back(sample.boxes[static_cast<std::size_t>(i)].longest_side());
-        sum += sides.back();
+double mean_radius(const Primitives& primitives) {
+    if (!primitives.has_radii()) return primitives.common_radius();
+    double sum = 0, count = 0;
+    for_stratified(primitives.count(), measured, 0.5, [&](std::uint64_t i) {
+        sum += primitives.radius(i);
+        count += 1;
     });
-    rules.mean_box_side = sum / static_cast<double>(sides.size());
-    const auto middle = sides.begin() + static_cast<std::ptrdiff_t>(sides.size() / 2);
-    std::nth_element(sides.begin(), middle, sides.end());
-    rules.median_box_side = *middle;
+    return sum / count;
 }
 
-} // namespace
+// Mean and median of the longest sides.
+std::array<double, 2> middle_sides(const Array<PlainBox>& sample, std::pmr::memory_resource* memory) {
+    Array<double> sides(memory);
+    double sum = 0;
+    for_stratified(sample.size(), measured, 0.5, [&](std::uint64_t i) {
+        sides.push_back(sample[static_cast<std::size_t>(i)].longest_side());
+        sum += sides.back();
+    });
+    const auto middle = sides.begin() + static_cast<std::ptrdiff_t>(sides.size() / 2);
+    std::nth_element(sides.begin(), middle, sides.end());
+    return {sum / static_cast<double>(sides.size()), *middle};
+}
 
-namespace {
+// Sets what is summed over sampled boxes, which stand for `count`: the cells that they meet, the box of all
+// or, with `centres`, of their centres, and the longest side.
+void sum_boxes(const Array<PlainBox>& sample, double count, bool centres, Moments& cells, PlainBox& bounds,
+               double& longest) {
+    bounds = sample[0].centre();
+    for (const PlainBox& box : sample) {
+        cells.add(cells_met({box.side(0), box.side(1), box.side(2)}));
+        bounds.include(centres ? box.centre() : box);
+        longest = std::max(longest, box.longest_side());
+    }
+    for (double& sum : cells.sum) sum *= count / static_cast<double>(sample.size());
+}
+
+// The cells that these boxes meet when they are larger by `by` on all sides.
+Moments grown(const Moments& cells, double by) {
+    const double w = 2 * by, (&m)[4] = cells.sum;
+    return {{m[0], m[1] + 3 * w * m[0], m[2] + w * (2 * m[1] + 3 * w * m[0]),
+             m[3] + w * (m[2] + w * (m[1] + w * m[0]))}};
+}
 
 // What is around fewer boxes is looked at more closely: the boxes seen around one are as coarse^-3.
 double coarseness(const SampleBudget& budget, std::size_t chosen) {
@@ -138,46 +151,54 @@ double coarseness(const SampleBudget& budget, std::size_t chosen) {
 
 ForeignWork::ForeignWork(const ForeignGrid& grid, const SampleBudget& budget,
                          std::pmr::memory_resource* memory)
-    : ForeignWork(grid, budget, sample_boxes(grid.held, grid.held_grown(), budget.held, 1, memory),
-                  sample_boxes(grid.those_asking(), grid.desc.radius, budget.asking, 2, memory), memory) {}
-
-ForeignWork::ForeignWork(const ForeignGrid& grid, const SampleBudget& budget, const BoxSample& held,
-                         const BoxSample& asking, std::pmr::memory_resource* memory)
     : centres_(grid.centres()), pairs_(grid.pairs()), same_set_(grid.same_set()),
       around_(grid.desc.cells_queried == VOX_CELLS_QUERIED_27), chosen_(budget.chosen),
       looked_cells_(budget.cells), singly_(budget.singly), rough_(budget.rough),
-      held_(held, centres_, share_of(held, grid.held), memory),
-      asking_(asking, around_ || (pairs_ && centres_), share_of(asking, grid.those_asking()), memory),
-      asking_chosen_(choose_asking(asking_, budget.chosen, memory)), held_chosen_(memory),
-      read_(sum_pairs(asking_, asking_chosen_, held_, coarseness(budget, asking_chosen_.size()),
-                      around_ ? Meeting::in_neighbours : Meeting::in_cells, same_set_, memory)),
-      memory_(memory) {
-    held_sums_ = sum_boxes(grid.held, grid.held_grown(), centres_, budget.summed);
-    asking_sums_ = same_set_
-                       ? grown_sums(held_sums_, grid.desc.radius - grid.held_grown())
-                       : sum_boxes(grid.those_asking(), grid.desc.radius, centres_ && pairs_, budget.summed);
+      held_count_(static_cast<double>(grid.held.count())),
+      asking_count_(static_cast<double>(grid.those_asking().count())), held_(memory), asking_(memory),
+      asking_chosen_(memory), held_chosen_(memory), read_(1, 0, memory), memory_(memory) {
+    sample_boxes(grid.held, grid.held_grown(), budget.held, 1, held_);
+    // More of another set than are kept, for its sums.
+    sample_boxes(grid.those_asking(), grid.desc.radius, (same_set_ ? 1 : 4) * budget.asking, 2, asking_);
+    const Array<PlainBox>&held = held_.added(), &asking = asking_.added();
+    const auto [mean_side, median_side] = middle_sides(held, memory);
+    double held_side = 0, asking_side = 0;
+    sum_boxes(held, held_count_, centres_, held_cells_, held_bounds_, held_side);
+    if (same_set_) {
+        const double by = grid.desc.radius - grid.held_grown();
+        asking_cells_ = grown(held_cells_, by);
+        asking_bounds_ = held_bounds_;
+        asking_side = held_side + 2 * by;
+    } else {
+        sum_boxes(asking, asking_count_, centres_ && pairs_, asking_cells_, asking_bounds_, asking_side);
+    }
+    has_size_ = centres_ ? !around_ && !pairs_ && asking_side > 0 : held_side > 0 || asking_side > 0;
+    held_.build(centres_, held_count_);
+    asking_.build(around_ || (pairs_ && centres_), asking_count_, budget.asking);
+    asking_chosen_ = choose_asking(asking_, budget.chosen, memory);
+    read_ = sum_pairs(asking_, asking_chosen_, held_, coarseness(budget, asking_chosen_.size()), around_,
+                      same_set_, memory);
     least_ = grid.desc.min_cell_size;
     if (around_ && least_ == 0) { // of all: it must not be missed
         const double longest = longest_side(grid.held);
         least_ = grid.desc.radius + (longest + (same_set_ ? longest : longest_side(*grid.asking))) / 2;
     }
-    PlainBox bounds = held_sums_.bounds;
-    bounds.include(asking_sums_.bounds);
+    PlainBox bounds = held_bounds_;
+    bounds.include(asking_bounds_);
     bounds.include(held_.bounds());
     bounds.include(asking_.bounds());
     extent_ = bounds.longest_side();
-    has_size_ = centres_ ? !around_ && !pairs_ && asking_sums_.longest > 0
-                         : held_sums_.longest > 0 || asking_sums_.longest > 0;
     if (extent_ > 0)
         range_ = {std::max(extent_ * 0x1p-28, least_), std::max(2 * extent_, least_)};
     else if (least_ > 0)
         range_ = {least_, least_};
 
-    set_sides(held, rules_, memory);
-    rules_.mean_edge = mean_edge(grid.held);
-    const PlainBox& all = held_sums_.bounds;
-    rules_.spacing = std::cbrt(all.side(0) * all.side(1) * all.side(2) / held_sums_.count);
-    rules_.radius = asking_sums_.radius;
+    const PlainBox& all = held_bounds_;
+    rules_ = {{{"mean edge (Teschner et al. 2003)", mean_edge(grid.held), 0},
+               {"mean box side", mean_side, 0},
+               {"median box side (IPC Toolkit)", median_side, 0},
+               {"spacing", std::cbrt(all.side(0) * all.side(1) * all.side(2) / held_count_), 0},
+               {"mean radius", mean_radius(grid.those_asking()) + grid.desc.radius, 0}}};
     for (auto* shares : {&empty_shares_, &occupied_shares_}) shares->emplace(range_, curve_octaves, memory);
     never_empty_ = same_set_ && !centres_ && grid.desc.radius == 0; // each finds itself
 }
@@ -186,21 +207,21 @@ ForeignWork::ForeignWork(const ForeignGrid& grid, const SampleBudget& budget, co
 
 vox_foreign_counts ForeignWork::smooth_at(double d) const noexcept {
     vox_foreign_counts work{};
-    const double held_cells = centres_ ? held_sums_.count : held_sums_.cells.at(d);
+    const double held_cells = centres_ ? held_count_ : held_cells_.at(d);
     work.stored = held_cells;
     const double others = read_.at(d);
     if (pairs_) {
-        if (!same_set_) work.stored += centres_ ? asking_sums_.count : asking_sums_.cells.at(d);
+        if (!same_set_) work.stored += centres_ ? asking_count_ : asking_cells_.at(d);
         work.visits = work.stored;
         work.reads = same_set_ ? others / 2 : others;
     } else {
-        work.visits = around_ ? 27 * asking_sums_.count : asking_sums_.cells.at(d);
+        work.visits = around_ ? 27 * asking_count_ : asking_cells_.at(d);
         // Its own cells are what a box finds itself in.
         work.reads = same_set_ ? held_cells + others : others;
     }
     work.empty = work.visits;
-    PlainBox all = held_sums_.bounds;
-    if (pairs_) all.include(asking_sums_.bounds);
+    PlainBox all = held_bounds_;
+    if (pairs_) all.include(asking_bounds_);
     work.cells = cells_met({all.side(0), all.side(1), all.side(2)}).at(d);
     return work;
 }
@@ -224,32 +245,29 @@ vox_foreign_counts ForeignWork::exactly_at(double d) {
     return with_shares(d, empty_share(d), occupied_share(d));
 }
 
-vox_foreign_counts ForeignWork::at(double d, CellsWanted wanted) {
-    const auto empty = [this](double size) { return empty_share(size); };
-    const auto occupied = [this](double size) { return occupied_share(size); };
-    return with_shares(d, wanted.empty ? empty_shares_->at(d, empty) : 0,
-                       wanted.occupied ? occupied_shares_->at(d, occupied) : 0);
+vox_foreign_counts ForeignWork::at(double d, bool empty, bool occupied) {
+    return with_shares(
+        d, empty ? empty_shares_->at(d, [this](double size) { return empty_share(size); }) : 0,
+        occupied ? occupied_shares_->at(d, [this](double size) { return occupied_share(size); }) : 0);
 }
 
 double ForeignWork::empty_share(double d) const {
     if (pairs_ || never_empty_) return 0;
     std::uint64_t random = 3;
-    double all = 0, empty_ones = 0;
     CellCounts counts;
     const double share = held_.share();
     for (std::size_t i = 0; i < looked_cells_; ++i) {
         const Asking& ask = asking_chosen_[i * asking_chosen_.size() / looked_cells_];
-        const SomeCell cell = some_cell(asking_.box(ask.index), d, around_, random);
-        const double weight = ask.weight * cell.of;
+        double lo[3];
+        const double weight = ask.weight * some_cell(asking_.box(ask.index), d, around_, random, lo);
         if (share == 1) {
-            all += weight;
-            if (!held_.meets_any(cell.lo, d)) empty_ones += weight;
+            counts.add_known(weight, held_.meets_any(lo, d) ? 0 : weight);
         } else {
-            const double n = held_.count_meeting(cell.lo, d, rough_);
-            counts.add(weight, n / share, n * (n - 1) / (share * share));
+            const double n = held_.count_meeting(lo, d, rough_);
+            counts.add_part(weight, n / share, n * (n - 1) / (share * share));
         }
     }
-    return share == 1 ? empty_ones / all : counts.none();
+    return counts.none();
 }
 
 namespace {
@@ -296,10 +314,14 @@ double ForeignWork::occupied_share(double d) {
     if (smooth.cells * least_positions <=
         static_cast<double>(all_kept ? singly_ : std::min(singly_, looked_cells_)))
         return occupied_of_few(d, smooth.cells) / smooth.stored;
-    OccupiedShare share(d);
-    share.look(held_, both ? &asking_ : nullptr, held_chosen_, looked_cells_, rough_);
-    if (both) share.look(asking_, &held_, asking_chosen_, looked_cells_, rough_);
-    return share.value();
+    std::uint64_t random = 4;
+    CellCounts counts;
+    const auto look = [&](const SampleTree& own, const SampleTree* other, const Array<Asking>& chosen) {
+        look_at_entries(own, other, chosen, looked_cells_, d, rough_, endless, random, counts);
+    };
+    look(held_, both ? &asking_ : nullptr, held_chosen_);
+    if (both) look(asking_, &held_, asking_chosen_);
+    return counts.mean_inverse();
 }
 
 } // namespace vox

@@ -1,7 +1,7 @@
 // The active-set method of C. L. Lawson, R. J. Hanson, Solving Least Squares Problems, 1974, ch. 23, on the
 // normal equations (R. Bro, S. De Jong, A fast non-negativity-constrained least squares algorithm, J. of
 // Chemometrics 11, 1997), which are scaled to a diagonal of ones.
-#include "cell_size/foreign/least_squares.hpp"
+#include "cell_size/foreign/fit.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -10,14 +10,11 @@ namespace vox {
 
 namespace {
 
-using Coefficients = NonNegativeLeastSquares::Coefficients;
-using Matrix = std::array<Coefficients, NonNegativeLeastSquares::most_columns>;
-
 // Solves for the columns of `free` alone, by Cholesky's method. False where they depend on each other.
-bool solve_free(const Matrix& squares, const Coefficients& targets, std::span<const std::size_t> free,
-                Coefficients& x) noexcept {
+bool solve_free(const NormalEquations& squares, const Coefficients& targets,
+                std::span<const std::size_t> free, Coefficients& x) noexcept {
     constexpr double least_pivot = 1e-11; // of the diagonal, which is 1
-    Matrix l{};
+    NormalEquations l{};
     Coefficients y{};
     for (std::size_t i = 0; i < free.size(); ++i) {
         for (std::size_t j = 0; j <= i; ++j) {
@@ -45,29 +42,25 @@ bool solve_free(const Matrix& squares, const Coefficients& targets, std::span<co
 
 } // namespace
 
-void NonNegativeLeastSquares::add(std::span<const double> row, double target) noexcept {
-    for (std::size_t i = 0; i < row.size(); ++i) {
-        for (std::size_t j = 0; j <= i; ++j) squares_[i][j] += row[i] * row[j];
-        targets_[i] += row[i] * target;
-    }
+void add_row(const Coefficients& row, NormalEquations& equations) noexcept {
+    for (std::size_t i = 0; i < row.size(); ++i)
+        for (std::size_t j = 0; j < row.size(); ++j) equations[i][j] += row[i] * row[j];
 }
 
-Coefficients NonNegativeLeastSquares::solve() const noexcept {
-    const auto columns = static_cast<std::size_t>(columns_);
+Coefficients solve_non_negative(const NormalEquations& equations, std::size_t columns) noexcept {
     Coefficients scale{}, targets{};
-    Matrix squares{};
+    NormalEquations squares{};
     for (std::size_t i = 0; i < columns; ++i)
-        scale[i] = squares_[i][i] > 0 ? 1 / std::sqrt(squares_[i][i]) : 0;
+        scale[i] = equations[i][i] > 0 ? 1 / std::sqrt(equations[i][i]) : 0;
     double largest = 0;
     for (std::size_t i = 0; i < columns; ++i) {
-        targets[i] = targets_[i] * scale[i];
+        targets[i] = equations[i][columns] * scale[i];
         largest = std::fmax(largest, std::fabs(targets[i]));
-        for (std::size_t j = 0; j <= i; ++j)
-            squares[i][j] = squares[j][i] = squares_[i][j] * scale[i] * scale[j];
+        for (std::size_t j = 0; j < columns; ++j) squares[i][j] = equations[i][j] * scale[i] * scale[j];
     }
     Coefficients x{};
-    std::array<bool, most_columns> is_free{}, refused{};
-    std::array<std::size_t, most_columns> free{};
+    std::array<bool, std::tuple_size_v<Coefficients>> is_free{}, refused{};
+    std::array<std::size_t, std::tuple_size_v<Coefficients>> free{};
     const auto list_free = [&] {
         std::size_t count = 0;
         for (std::size_t i = 0; i < columns; ++i)
@@ -76,7 +69,7 @@ Coefficients NonNegativeLeastSquares::solve() const noexcept {
     };
     // Each round frees one column; the sum of squares falls with each, so no set of columns comes twice. The
     // limit is for rounding.
-    for (int round = 0; round < 8 * columns_; ++round) {
+    for (std::size_t round = 0; round < 8 * columns; ++round) {
         // The column along which the sum of squares falls most steeply.
         std::size_t entering = columns;
         double steepest = 1e-12 * largest;

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
@@ -148,7 +149,6 @@ Four most_of(Four a, Four b) noexcept { return {_mm_max_ps(a.at, b.at)}; }
 Four sum_of(Four a, Four b) noexcept { return {_mm_add_ps(a.at, b.at)}; }
 Four difference(Four a, Four b) noexcept { return {_mm_sub_ps(a.at, b.at)}; }
 Four product(Four a, Four b) noexcept { return {_mm_mul_ps(a.at, b.at)}; }
-Four turned(Four a) noexcept { return {_mm_shuffle_ps(a.at, a.at, _MM_SHUFFLE(3, 0, 2, 1))}; } // y z x
 Four all_equal(float value) noexcept { return {_mm_set1_ps(value)}; }
 #else
 struct Four {
@@ -181,7 +181,6 @@ Four difference(Four a, Four b) noexcept {
 Four product(Four a, Four b) noexcept {
     return each_of(a, b, [](float x, float y) { return x * y; });
 }
-Four turned(Four a) noexcept { return {{a.at[1], a.at[2], a.at[0], a.at[3]}}; }
 Four all_equal(float value) noexcept { return {{value, value, value, value}}; }
 #endif
 
@@ -197,26 +196,10 @@ struct PackedPrimitives {
         return !p.positions_.doubles && p.positions_.component_gap == 0;
     }
 
-    // Its box, by reading four floats at a time, one of them of the next position. False where there is none.
-    template <int corners>
-    bool corners_of(std::uint64_t primitive, Four& lo, Four& hi) const noexcept {
-        return read<corners>(primitive, [&](int corner, Four p) {
-            lo = corner == 0 ? p : least_of(lo, p);
-            hi = corner == 0 ? p : most_of(hi, p);
-        });
-    }
-    // Also the sum of its coordinates times 0, which is not 0 where one is not finite.
+    // Its box, by reading four floats at a time, one of them of the next position, and the sum of its
+    // coordinates times 0, which is not 0 where one is not finite. False where there is none.
     template <int corners>
     bool corners_of(std::uint64_t primitive, Four& lo, Four& hi, Four& zero) const noexcept {
-        return read<corners>(primitive, [&](int corner, Four p) {
-            const Four nothing = product(p, all_equal(0));
-            zero = corner == 0 ? nothing : sum_of(zero, nothing);
-            lo = corner == 0 ? p : least_of(lo, p);
-            hi = corner == 0 ? p : most_of(hi, p);
-        });
-    }
-    template <int corners, class Take>
-    bool read(std::uint64_t primitive, Take&& take) const noexcept {
         std::uint64_t v[static_cast<std::size_t>(corners)], last = 0;
         for (int c = 0; c < corners; ++c) {
             v[c] = indexed ? index(primitive, c)
@@ -224,7 +207,15 @@ struct PackedPrimitives {
             last = std::max(last, v[c]);
         }
         if (last >= safe) return false;
-        for (int c = 0; c < corners; ++c) take(c, Four::read(data + v[c] * stride));
+        zero = all_equal(0);
+        lo = all_equal(std::numeric_limits<float>::infinity());
+        hi = all_equal(-std::numeric_limits<float>::infinity());
+        for (int c = 0; c < corners; ++c) {
+            const Four p = Four::read(data + v[c] * stride);
+            zero = sum_of(zero, product(p, all_equal(0)));
+            lo = least_of(lo, p);
+            hi = most_of(hi, p);
+        }
         return true;
     }
 
@@ -264,125 +255,14 @@ struct PackedPrimitives {
 
 namespace {
 
-// Boxes are summed up in runs of the list, each a part of it.
-constexpr std::uint64_t run_length = 32;
-
+// Calls visit(a constant of that number).
 template <class Visit>
-void for_runs(std::uint64_t count, std::uint64_t wanted, Visit&& visit) {
-    const std::uint64_t runs = (count + run_length - 1) / run_length;
-    for_stratified(
-        runs, (std::min(count, wanted) + run_length - 1) / run_length, 0.5,
-        [&](std::uint64_t run) { visit(run * run_length, std::min((run + 1) * run_length, count)); });
+void with_corners(int corners, Visit&& visit) {
+    if (corners == 1) return visit(std::integral_constant<int, 1>());
+    if (corners == 2) return visit(std::integral_constant<int, 2>());
+    if (corners == 3) return visit(std::integral_constant<int, 3>());
+    visit(std::integral_constant<int, 4>());
 }
-
-// Sums in double of runs that are summed in single precision.
-template <int corners>
-void sum_packed(const PackedPrimitives& packed, double radius, bool centres, std::uint64_t wanted,
-                PrimitiveSums& sums) {
-    const Four grown = all_equal(static_cast<float>(2 * radius));
-    Four least = all_equal(std::numeric_limits<float>::infinity()), most = difference(all_equal(0), least);
-    Four longest = all_equal(0);
-    double looked = 0, sums_of[3] = {0, 0, 0};
-    for_runs(packed.all.count(), wanted, [&](std::uint64_t first, std::uint64_t last) {
-        Four one = all_equal(0), two = one, three = one, zeros = one;
-        for (std::uint64_t i = first; i < last; ++i) {
-            Four lo, hi, zero;
-            if (!packed.corners_of<corners>(i, lo, hi, zero)) {
-                packed.box<corners>(i, lo, hi);
-                zero = all_equal(0);
-            }
-            zeros = sum_of(zeros, zero);
-            const Four sides = sum_of(difference(hi, lo), grown), next = turned(sides),
-                       both = product(sides, next);
-            one = sum_of(one, sides);
-            two = sum_of(two, both);
-            three = sum_of(three, product(both, turned(next)));
-            longest = most_of(longest, sides);
-            if (centres) lo = hi = product(sum_of(lo, hi), all_equal(0.5f));
-            least = least_of(least, lo);
-            most = most_of(most, hi);
-        }
-        if (!packed.is_zero(zeros)) // one of these is not finite: the error says which
-            for (std::uint64_t i = first; i < last; ++i) (void)packed.all.box(i);
-        looked += static_cast<double>(last - first);
-        float at[4];
-        one.write(at);
-        sums_of[0] += double{at[0]} + double{at[1]} + double{at[2]};
-        two.write(at);
-        sums_of[1] += double{at[0]} + double{at[1]} + double{at[2]};
-        three.write(at);
-        sums_of[2] += double{at[0]};
-    });
-    sums.cells = {{looked, sums_of[0], sums_of[1], sums_of[2]}};
-    float lo[4], hi[4], side[4];
-    least.write(lo);
-    most.write(hi);
-    longest.write(side);
-    for (int k = 0; k < 3; ++k) {
-        sums.bounds.lo[k] = double{lo[k]};
-        sums.bounds.hi[k] = double{hi[k]};
-        sums.longest = std::max(sums.longest, double{side[k]});
-    }
-    if (!centres) sums.bounds.grow(radius);
-    sums.radius = radius;
-}
-
-void sum_exactly(const Primitives& primitives, double grown, bool centres, std::uint64_t wanted,
-                 PrimitiveSums& sums) {
-    double looked = 0, radii = 0;
-    for_runs(primitives.count(), wanted, [&](std::uint64_t begin, std::uint64_t end) {
-        for (std::uint64_t i = begin; i < end; ++i) {
-            PlainBox box = primitives.box(i);
-            const double radius = primitives.radius(i) + grown;
-            box.grow(radius);
-            radii += radius;
-            sums.cells.add(cells_met({box.side(0), box.side(1), box.side(2)}));
-            sums.longest = std::max(sums.longest, box.longest_side());
-            const PlainBox place = centres ? box.centre() : box;
-            if (looked == 0) sums.bounds = place;
-            sums.bounds.include(place);
-            ++looked;
-        }
-    });
-    sums.radius = radii / looked;
-}
-
-} // namespace
-
-PrimitiveSums sum_boxes(const Primitives& primitives, double grown, bool centres, std::uint64_t wanted) {
-    PrimitiveSums sums;
-    sums.count = static_cast<double>(primitives.count());
-    if (PackedPrimitives::fits(primitives) && !primitives.has_radii()) {
-        const PackedPrimitives packed(primitives);
-        const double radius = primitives.common_radius() + grown;
-        switch (primitives.corners()) {
-        case 1:
-            sum_packed<1>(packed, radius, centres, wanted, sums);
-            break;
-        case 2:
-            sum_packed<2>(packed, radius, centres, wanted, sums);
-            break;
-        case 3:
-            sum_packed<3>(packed, radius, centres, wanted, sums);
-            break;
-        default:
-            sum_packed<4>(packed, radius, centres, wanted, sums);
-            break;
-        }
-    }
-    // Products of very large or very small sides are out of the range of floats.
-    const bool in_range = sums.longest == 0 || (sums.longest > 0x1p-30 && sums.longest < 0x1p30);
-    if (!(sums.cells.sum[0] > 0 && in_range)) {
-        sums.cells = {};
-        sums.longest = 0;
-        sum_exactly(primitives, grown, centres, wanted, sums);
-    }
-    const double each = sums.count / sums.cells.sum[0];
-    for (double& sum : sums.cells.sum) sum *= each;
-    return sums;
-}
-
-namespace {
 
 // Calls visit(index) for one place of each part of the list.
 template <class Visit>
@@ -399,33 +279,11 @@ void for_random_places(std::uint64_t count, std::uint64_t wanted, std::uint64_t 
 }
 
 template <int corners>
-void sample_packed(const PackedPrimitives& packed, double radius, std::uint64_t wanted, std::uint64_t seed,
-                   BoxSample& sample) {
-    for_random_places(packed.all.count(), wanted, seed, [&](std::uint64_t i) {
-        Four lo, hi;
-        packed.box<corners>(i, lo, hi);
-        float low[4], high[4];
-        lo.write(low);
-        hi.write(high);
-        PlainBox box;
-        for (int k = 0; k < 3; ++k) {
-            box.lo[k] = double{low[k]} - radius;
-            box.hi[k] = double{high[k]} + radius;
-        }
-        sample.add(box, static_cast<std::uint32_t>(i));
-    });
-}
-
-} // namespace
-
-namespace {
-
-template <int corners>
 double longest_packed(const PackedPrimitives& packed) {
     Four longest = all_equal(0);
     for (std::uint64_t i = 0; i < packed.all.count(); ++i) {
-        Four lo, hi;
-        if (!packed.corners_of<corners>(i, lo, hi)) packed.box<corners>(i, lo, hi);
+        Four lo, hi, zero;
+        if (!packed.corners_of<corners>(i, lo, hi, zero)) packed.box<corners>(i, lo, hi);
         longest = most_of(difference(hi, lo), longest); // leaves out a side that is not a number
     }
     float side[4];
@@ -438,11 +296,8 @@ double longest_packed(const PackedPrimitives& packed) {
 double longest_side(const Primitives& primitives) {
     if (PackedPrimitives::fits(primitives) && !primitives.has_radii()) {
         const PackedPrimitives packed(primitives);
-        const int corners = primitives.corners();
-        const double longest = corners == 1   ? longest_packed<1>(packed)
-                               : corners == 2 ? longest_packed<2>(packed)
-                               : corners == 3 ? longest_packed<3>(packed)
-                                              : longest_packed<4>(packed);
+        double longest = 0;
+        with_corners(primitives.corners(), [&](auto n) { longest = longest_packed<n()>(packed); });
         if (std::isfinite(longest)) return longest + 2 * primitives.common_radius();
     }
     double longest = 0;
@@ -451,44 +306,32 @@ double longest_side(const Primitives& primitives) {
     return longest;
 }
 
-PrimitiveSums grown_sums(PrimitiveSums sums, double by) noexcept {
-    const double w = 2 * by, (&m)[4] = sums.cells.sum;
-    sums.cells = {{m[0], m[1] + 3 * w * m[0], m[2] + w * (2 * m[1] + 3 * w * m[0]),
-                   m[3] + w * (m[2] + w * (m[1] + w * m[0]))}};
-    sums.longest += w;
-    sums.radius += by;
-    return sums;
-}
-
-BoxSample sample_boxes(const Primitives& primitives, double grown, std::uint64_t wanted, std::uint64_t seed,
-                       std::pmr::memory_resource* memory) {
-    BoxSample sample(memory);
+void sample_boxes(const Primitives& primitives, double grown, std::uint64_t wanted, std::uint64_t seed,
+                  SampleTree& sample) {
     sample.reserve(static_cast<std::size_t>(std::min(primitives.count(), wanted)));
     if (PackedPrimitives::fits(primitives) && !primitives.has_radii()) {
         const PackedPrimitives packed(primitives);
         const double radius = primitives.common_radius() + grown;
-        switch (primitives.corners()) {
-        case 1:
-            sample_packed<1>(packed, radius, wanted, seed, sample);
-            break;
-        case 2:
-            sample_packed<2>(packed, radius, wanted, seed, sample);
-            break;
-        case 3:
-            sample_packed<3>(packed, radius, wanted, seed, sample);
-            break;
-        default:
-            sample_packed<4>(packed, radius, wanted, seed, sample);
-            break;
-        }
-        return sample;
+        with_corners(primitives.corners(), [&](auto n) {
+            for_random_places(primitives.count(), wanted, seed, [&](std::uint64_t i) {
+                Four lo, hi;
+                packed.box<n()>(i, lo, hi);
+                float low[4], high[4];
+                lo.write(low);
+                hi.write(high);
+                PlainBox box{{double{low[0]}, double{low[1]}, double{low[2]}},
+                             {double{high[0]}, double{high[1]}, double{high[2]}}};
+                box.grow(radius);
+                sample.add(box, i);
+            });
+        });
+        return;
     }
     for_random_places(primitives.count(), wanted, seed, [&](std::uint64_t i) {
         PlainBox box = primitives.box(i);
         box.grow(primitives.radius(i) + grown);
-        sample.add(box, static_cast<std::uint32_t>(i));
+        sample.add(box, i);
     });
-    return sample;
 }
 
 } // namespace vox

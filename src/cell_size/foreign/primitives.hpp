@@ -51,29 +51,13 @@ private:
     int corners_;
 };
 
-// What is summed over primitives, from all of them or from a sample.
-struct PrimitiveSums {
-    double count = 0;   // of all
-    Moments cells;      // of the cells that their boxes meet
-    PlainBox bounds{};  // of their boxes
-    double longest = 0; // side of a box
-    double radius = 0;  // mean
-};
-
-// Boxes with their radii and `grown` beyond, of about `wanted` primitives, all over the list. With `centres`,
-// the bounds are those of the centres. Throws as Primitives::box().
-PrimitiveSums sum_boxes(const Primitives& primitives, double grown, bool centres, std::uint64_t wanted);
-
 // The longest side of a box, with its radius, among all. Throws as Primitives::box(), but not for every NaN.
 double longest_side(const Primitives& primitives);
 
-// The sums for boxes that are larger by `by` on all sides, with the bounds as they were.
-PrimitiveSums grown_sums(PrimitiveSums sums, double by) noexcept;
-
-// Boxes of about `wanted` primitives, with radii and `grown` beyond: all of them, or one of each part of the
-// list, at a place that is independent from part to part and from seed to seed. So a pair of one primitive
-// from each of two samples is as likely as any other. Throws as Primitives::box().
-BoxSample sample_boxes(const Primitives& primitives, double grown, std::uint64_t wanted, std::uint64_t seed,
-                       std::pmr::memory_resource* memory);
+// Adds boxes of about `wanted` primitives, with radii and `grown` beyond: all of them, or one of each part of
+// the list, at a place that is independent from part to part and from seed to seed. So a pair of one
+// primitive from each of two samples is as likely as any other. Throws as Primitives::box().
+void sample_boxes(const Primitives& primitives, double grown, std::uint64_t wanted, std::uint64_t seed,
+                  SampleTree& sample);
 
 } // namespace vox

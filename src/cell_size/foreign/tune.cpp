@@ -2,11 +2,10 @@
 // an octave to either side of the best run, as costs are not as smooth as fits. Fits without one of the runs
 // say how sure that is (the jackknife: M. Quenouille, Biometrika 43, 1956): where they lose too much at the
 // best run, the size is run where the worst of them is least.
-#include "cell_size/foreign/tune.hpp"
+#include "cell_size/foreign/fit.hpp"
 
 #include "base/array.hpp"
 #include "base/error.hpp"
-#include "cell_size/warnings.hpp"
 
 #include <algorithm>
 #include <array>
@@ -22,14 +21,12 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // Cell sizes are nodes, evenly spaced in the logarithm, but for the ends of the range.
 class Tuner {
 public:
-    Tuner(const CostBasis* described, const TuneSettings& settings, const GridRun& run,
+    Tuner(const CostBasis& described, const vox_tune_desc& desc, const GridRun& run,
           std::pmr::memory_resource* memory)
-        : described_(described), settings_(settings), run_(run),
-          basis_(with_powers(described, settings.first)),
-          first_(nodes_between(settings.range.min, settings.first)),
-          high_(first_ + nodes_between(settings.first, settings.range.max)), values_(memory), timed_(memory),
-          ran_(memory) {
-        if (described) check_countable(*described, size(0), "the smallest cell size to be tried");
+        : described_(described), desc_(desc), run_(run), basis_(with_powers(described, desc.first)),
+          first_(nodes_between(desc.min, desc.first)), high_(first_ + nodes_between(desc.first, desc.max)),
+          values_(memory), timed_(memory), ran_(memory) {
+        if (described.count > 0) check_countable(described, size(0), "the smallest cell size to be tried");
         for (int node = 0; node <= high_; ++node) values_.push_back(basis_.values(size(node)));
     }
 
@@ -43,7 +40,7 @@ public:
         if (timed_.empty())
             throw Error(VOX_ERROR_INVALID_STATE,
                         format("no run succeeded: %u could not run, the first at cell size %g%s", count_,
-                               settings_.first, stopped_ ? ", then the callback stopped" : ""));
+                               desc_.first, stopped_ ? ", then the callback stopped" : ""));
         for (fit(); may_go_on(); fit()) {
             const int node = next();
             if (was_run(node, 0)) break;
@@ -52,7 +49,7 @@ public:
         write_best(
             {size(best_), cost(best_, fitted_)},
             [&](double log_size) { return cost_of(basis_.values(std::exp2(log_size)), fitted_); },
-            {size(view_low()), size(view_high())}, settings_, result_);
+            {size(view_low()), size(view_high())}, basis_, result_);
         result_.timing_count = count_;
         if (const int node = cheapest(fitted_); node < smallest_ || node > largest_)
             add_warning(
@@ -71,12 +68,12 @@ private:
         return static_cast<int>(std::ceil(nodes_per_octave * std::min(std::log2(b / a), 24.0)));
     }
     double size(int node) const {
-        return std::clamp(settings_.first * std::exp2(double(node - first_) / nodes_per_octave),
-                          settings_.range.min, settings_.range.max);
+        return std::clamp(desc_.first * std::exp2(double(node - first_) / nodes_per_octave), desc_.min,
+                          desc_.max);
     }
     const Coefficients& values(int node) const { return values_[static_cast<std::size_t>(node)]; }
 
-    bool may_go_on() const { return !stopped_ && count_ < settings_.max_runs; }
+    bool may_go_on() const { return !stopped_ && count_ < desc_.max_runs; }
     bool was_run(int node, int most_away) const {
         return std::any_of(nodes_.begin(), nodes_.begin() + count_,
                            [=](int other) { return std::abs(other - node) <= most_away; });
@@ -131,10 +128,11 @@ private:
 
     void fit() {
         CostBasis basis = basis_;
-        if (!described_) // powers of sizes over the fastest one, where they are expected to cost least
-            for (std::size_t i = 0; i < basis.count; ++i) basis.expected[i] /= values(fastest_node_)[i];
-        const CostFit fit(basis, values(fastest_node_));
-        fitted_ = fit_robustly(fit, timed_);
+        const Coefficients& middle = values(fastest_node_);
+        if (described_.count ==
+            0) // powers of sizes over the fastest one, where they are expected to cost least
+            for (std::size_t i = 0; i < basis.count; ++i) basis.expected[i] /= middle[i];
+        fitted_ = fit_robustly(basis, middle, timed_);
         // Timings have noise, and fits are smoother than costs: the best run has the least product of both.
         // Fits alone lose 0.8 % on average in place of 0.35; timings alone are as good where noise is 1 %,
         // and lose 0.1 % more where it is 4 %.
@@ -149,7 +147,7 @@ private:
         double sum = count > 1 || low_ == high_ ? 0 : infinity, greatest = 0;
         for (std::size_t i = 0; i < timed_.size() && count > 1; ++i) {
             const double weight = std::exchange(timed_[i].weight, 0.0);
-            const Coefficients others = fit(timed_);
+            const Coefficients others = fit_once(basis, middle, timed_);
             timed_[i].weight = weight;
             const int there = cheapest(others);
             const double loss = cost(best_, others) / cost(there, others) - 1;
@@ -167,11 +165,11 @@ private:
         if (const int node = cheapest(fitted_); !was_run(node, 1)) return node;
         for (const int beside : {best_ + sixth, best_ - sixth})
             if (const int node = std::clamp(beside, low_, high_); !was_run(node, 1)) return node;
-        return result_.expected_loss > settings_.wanted_loss ? doubted_ : best_;
+        return result_.expected_loss > desc_.wanted_loss ? doubted_ : best_;
     }
 
-    const CostBasis* described_;
-    const TuneSettings& settings_;
+    const CostBasis& described_;
+    const vox_tune_desc& desc_;
     const GridRun& run_;
     const CostBasis basis_;      // the described terms, and powers
     const int first_;            // node of the first size
@@ -192,9 +190,9 @@ private:
 
 } // namespace
 
-vox_cell_size_result tune(const CostBasis* described, const TuneSettings& settings, const GridRun& run,
+vox_cell_size_result tune(const CostBasis& described, const vox_tune_desc& desc, const GridRun& run,
                           std::pmr::memory_resource* memory) {
-    return Tuner(described, settings, run, memory)();
+    return Tuner(described, desc, run, memory)();
 }
 
 } // namespace vox
