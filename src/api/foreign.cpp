@@ -57,11 +57,9 @@ struct DescribedGrid {
                   if (!grid.dense()) counts.cells = 0;
                   return counts;
               },
-              grid.desc.weights)) {}
+              grid.desc.weights, work.least_cell_size(), grid.desc.zone_loss)) {}
     DescribedGrid(const DescribedGrid&) = delete;
     DescribedGrid& operator=(const DescribedGrid&) = delete;
-
-    FitSettings fit_settings() const { return {work.least_cell_size(), grid.desc.zone_loss}; }
 
     ForeignGrid grid;
     CallerMemory memory;
@@ -69,19 +67,18 @@ struct DescribedGrid {
     CostBasis basis;
 };
 
-// The first cell size is that of the desc, or the one suggested, or 0 where no grid is described.
-TuneSettings read_settings(const vox_tune_desc& desc, const FitSettings& fit, double suggested) {
-    TuneSettings settings{
-        fit, desc.max_runs, desc.wanted_loss, desc.first > 0 ? desc.first : suggested, {desc.min, desc.max}};
-    CellSizeRange& range = settings.range;
-    const double first = settings.first, least = fit.least_cell_size;
-    set_default(settings.max_runs, 7u);
-    set_default(settings.wanted_loss, 0.02);
+// The desc with all defaults. The first cell size is that of the desc, or the one suggested, or 0 where no
+// grid is described. `least` gives right answers.
+vox_tune_desc checked(const vox_tune_desc& desc, double least, double suggested) {
+    vox_tune_desc tuned = desc;
+    const double first = desc.first > 0 ? desc.first : suggested;
+    set_default(tuned.max_runs, 7u);
+    set_default(tuned.wanted_loss, 0.02);
     const auto at_least_0 = [](const char* name, double value) {
         if (!(value >= 0) || !std::isfinite(value))
             refuse(format("desc.%s is %g, expected a finite number of at least 0", name, value));
     };
-    if (settings.max_runs < 3 || settings.max_runs > VOX_TIMING_CAPACITY)
+    if (tuned.max_runs < 3 || tuned.max_runs > VOX_TIMING_CAPACITY)
         refuse(format("desc.max_runs is %u, expected 3 to %u", desc.max_runs, VOX_TIMING_CAPACITY));
     at_least_0("min", desc.min);
     at_least_0("max", desc.max);
@@ -97,12 +94,15 @@ TuneSettings read_settings(const vox_tune_desc& desc, const FitSettings& fit, do
         refuse(format("desc.first is %g, the smallest that gives right answers is %g", desc.first, least));
     if (desc.max > 0 && desc.max < least)
         refuse(format("desc.max is %g, the smallest that gives right answers is %g", desc.max, least));
-    if (!(range.max > 0)) range = {first / 8, first * 8};
-    range.min = std::max(range.min, least);
-    settings.first = std::clamp(first, range.min, range.max);
-    if (!(range.min > 0) || !std::isfinite(range.max))
+    if (!(desc.max > 0)) {
+        tuned.min = first / 8;
+        tuned.max = first * 8;
+    }
+    tuned.min = std::max(tuned.min, least);
+    tuned.first = std::clamp(first, tuned.min, tuned.max);
+    if (!(tuned.min > 0) || !std::isfinite(tuned.max))
         refuse(format("the first cell size is %g, too far from 1 for an eighth or eight times it", first));
-    return settings;
+    return tuned;
 }
 
 } // namespace
@@ -114,10 +114,9 @@ vox_result vox_foreign_grid_fit(const vox_foreign_grid* grid, const vox_timing* 
         if (count > 0) require(timings, "timings");
         check_limit(count, UINT32_MAX, "count");
         DescribedGrid described(grid);
-        write_struct(out,
-                     fit_timings(described.basis, described.fit_settings(),
-                                 {timings, static_cast<std::size_t>(count)}, &described.memory),
-                     "out");
+        write_struct(
+            out, fit_timings(described.basis, {timings, static_cast<std::size_t>(count)}, &described.memory),
+            "out");
     });
 }
 
@@ -132,13 +131,13 @@ vox_result vox_foreign_grid_tune(const vox_foreign_grid* grid, const vox_tune_de
             return run(cell_size, user);
         };
         if (!grid) {
-            const TuneSettings settings = read_settings(asked, {}, 0);
-            write_struct(out, tune(nullptr, settings, run_of_caller, std::pmr::new_delete_resource()), "out");
+            write_struct(out, tune({}, checked(asked, 0, 0), run_of_caller, std::pmr::new_delete_resource()),
+                         "out");
             return;
         }
         DescribedGrid described(grid);
         const double suggested = asked.first > 0 ? 0 : suggest_for(described.grid, described.work).cell_size;
-        const TuneSettings settings = read_settings(asked, described.fit_settings(), suggested);
-        write_struct(out, tune(&described.basis, settings, run_of_caller, &described.memory), "out");
+        const vox_tune_desc tuned = checked(asked, described.basis.least_cell_size, suggested);
+        write_struct(out, tune(described.basis, tuned, run_of_caller, &described.memory), "out");
     });
 }

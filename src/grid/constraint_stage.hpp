@@ -2,8 +2,8 @@
 // contacts, and the records.
 #pragma once
 
+#include "depth/closest.hpp"
 #include "depth/stage.hpp"
-#include "depth/surface_trees.hpp"
 #include "fast/engine.hpp"
 #include "grid/constraints.hpp"
 #include "grid/mesh_table.hpp"

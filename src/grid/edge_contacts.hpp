@@ -3,8 +3,8 @@
 #pragma once
 
 #include "base/counters.hpp"
+#include "depth/closest.hpp"
 #include "depth/penetrations.hpp"
-#include "depth/surface_trees.hpp"
 #include "exact/crossing.hpp"
 #include "exact/predicates.hpp"
 #include "grid/pairs.hpp"
