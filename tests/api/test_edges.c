@@ -7,6 +7,7 @@
 #include "support/constraint_checks.h"
 #include "support/ledger.h"
 #include "support/snapshot_checks.h"
+#include "support/turns.h"
 
 static uint64_t count_edges(const vox_grid* grid) { return count_constraints(grid, VOX_CONSTRAINT_EDGE); }
 
@@ -322,7 +323,8 @@ START_TEST(on_and_off) {
 }
 END_TEST
 
-/* Two balls that go through each other, then the same way again: the second time takes no memory. */
+/* Two balls that go through each other, then the same way again: the second time takes no memory, also where
+ * the work is shared in another way. */
 START_TEST(steady_state_allocates_nothing) {
     const uint32_t workers[] = {1, 3};
     for (int w = 0; w < 2; ++w) {
@@ -331,6 +333,9 @@ START_TEST(steady_state_allocates_nothing) {
         vox_grid_desc desc = edge_desc();
         desc.allocator = ledger_allocator(&l);
         desc.worker_count = workers[w];
+        turns t = {workers[w], 0};
+        const vox_task_system tasks = {take_turns, taken, &t};
+        desc.tasks = &tasks;
         vox_grid* grid = grid_of(&desc);
         body balls[2] = {make_lattice_ball(&five_cut, 8, 8), make_lattice_ball(&five_cut, 8, 8)};
         for (int i = 0; i < 2; ++i) {
@@ -344,6 +349,7 @@ START_TEST(steady_state_allocates_nothing) {
         uint64_t calls = 0, counts[16], found = 0;
         for (int round = 0; round < 4; ++round) {
             if (round == 3) calls = l.calls;
+            t.in_turn = round == 3;
             memcpy(balls[1].positions, start, 3 * sizeof(float) * balls[1].vertex_count);
             for (int step = 0; step < 16; ++step) {
                 move_body(&balls[1], -1.1, 0, 0);
