@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes docs/performance.md from the benchmark's results, what is aimed at beside them into bench/README.md, and the
+"""Writes docs/evidence/performance.md from the benchmark's results, what is aimed at beside them into bench/README.md, and the
 headlines of README.md.
 
 usage: report.py RESULTS.csv [CHART] > performance.md
@@ -259,7 +259,7 @@ def main():
     command = re.sub(r"(--meshes)[ =]\S+", r"\1 FOLDER", run["command"])
     print("# Performance\n")
     print(f"Written by `bench/report.py` from [the benchmark's results]({os.path.basename(sys.argv[1])}); "
-          f"[bench/README.md](../bench/README.md) says what is timed and how, what was tried, and what is aimed at. `{SUBJECT}` is a grid with constraints with all that its step "
+          f"[bench/README.md](../../bench/README.md) says what is timed and how, what was tried, and what is aimed at. `{SUBJECT}` is a grid with constraints with all that its step "
           f"does, `{CONTACTS}` the default grid.\n")
     print(f"    {command}\n")
     print(f"* Machine: {run['cpu']}, one thread\n* Build: {run['build']}\n* Date: {run['date']}\n"

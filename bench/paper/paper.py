@@ -3,7 +3,7 @@
 
     bench/paper/paper.py --vox build/release/tools/vox --meshes FOLDER
 
-runs `vox sweep` on every model and writes docs/paper.csv, docs/paper-models.csv, docs/paper.md and docs/paper-*.svg. The
+runs `vox sweep` on every model and writes docs/evidence/paper.csv, docs/evidence/paper-models.csv, docs/evidence/paper.md and docs/evidence/paper-*.svg. The
 spheres are made by the library. FOLDER holds bunny.msh, cow.msh and armadillo.msh; instead, --surfaces names a folder with
 bunny.obj, cow.obj and armadillo.obj, which are filled with as many tetrahedra as the paper's models have. Without either
 these three are left out. A run that was cut off goes on where it was (the samples are kept in --work). --page writes the
@@ -31,7 +31,7 @@ def arguments():
     parser.add_argument("--meshes", help="folder with bunny.msh, cow.msh, armadillo.msh")
     parser.add_argument("--surfaces", help="folder with the surfaces of these three, .obj")
     parser.add_argument("--work", default="build/paper", help="folder for samples and filled surfaces")
-    parser.add_argument("--out", default="docs", help="folder for the page")
+    parser.add_argument("--out", default="docs/evidence", help="folder for the page")
     parser.add_argument("--count", type=int, default=24, help="cell sizes in the range")
     parser.add_argument("--rounds", type=int, default=7, help="samples of each cell size")
     parser.add_argument("--page", action="store_true", help="write the page from the CSV files alone")

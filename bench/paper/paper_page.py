@@ -1,4 +1,4 @@
-"""docs/paper.md and its plots, from the CSV files of paper.py."""
+"""docs/evidence/paper.md and its plots, from the CSV files of paper.py."""
 import csv
 import math
 import os

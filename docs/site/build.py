@@ -51,8 +51,8 @@ NAVIGATION = [
             {"In five minutes": "docs/paper-explained.md"},
             "docs/cell-size.md",
             "docs/your-own-grid.md",
-            "docs/paper.md",
-            "docs/regret.md",
+            "docs/evidence/paper.md",
+            "docs/evidence/regret.md",
         ]
     },
     {
@@ -68,7 +68,7 @@ NAVIGATION = [
             "docs/snapshot.md",
             "docs/distributed.md",
             "docs/limits.md",
-            "docs/performance.md",
+            "docs/evidence/performance.md",
         ]
     },
     {

@@ -1,4 +1,4 @@
-"""The paper's experiment as measured again (docs/paper.csv, docs/paper-models.csv) and as printed in the paper
+"""The paper's experiment as measured again (docs/evidence/paper.csv, docs/evidence/paper-models.csv) and as printed in the paper
 (bench/paper), for the live figures."""
 
 import csv
@@ -15,7 +15,7 @@ def rows(path):
 
 def models():
     found = []
-    for model in rows("docs/paper-models.csv"):
+    for model in rows("docs/evidence/paper-models.csv"):
         times = [
             {
                 "rule": row["rule"],
@@ -23,7 +23,7 @@ def models():
                 "time": float(row["time_ms"]),
                 "cost": float(row["cost"]),
             }
-            for row in rows("docs/paper.csv")
+            for row in rows("docs/evidence/paper.csv")
             if row["model"] == model["model"]
         ]
         found.append(

@@ -1,5 +1,5 @@
-// The live figures' numbers beside the library's own: the cost of each of the 240 samples of docs/paper.csv, the
-// paper's best cell sizes, Eq. 9 beside docs/paper-models.csv, and, given the tool, what `vox suggest --json` says of a
+// The live figures' numbers beside the library's own: the cost of each of the 240 samples of docs/evidence/paper.csv, the
+// paper's best cell sizes, Eq. 9 beside docs/evidence/paper-models.csv, and, given the tool, what `vox suggest --json` says of a
 // mesh. usage: node test_cost_model.js [VOX MESH]
 
 import assert from "node:assert/strict";
@@ -10,7 +10,7 @@ import * as model from "./live/cost_model.js";
 import {bodiesInThePlane, countedOver, meanEdgeOf, stepInThePlane} from "./live/plane.js";
 
 function table(name) {
-  const [head, ...rows] = readFileSync(new URL(`../${name}`, import.meta.url), "utf8").trim().split("\n");
+  const [head, ...rows] = readFileSync(new URL(`../evidence/${name}`, import.meta.url), "utf8").trim().split("\n");
   const keys = head.split(",");
   return rows.map(
       (row) =>

@@ -2,6 +2,7 @@
 what it prints: an example, the tool vox, or a Python file. Ends with 77, and says why, where nothing could be run."""
 
 import os
+import pathlib
 import re
 import subprocess
 import sys
@@ -11,14 +12,10 @@ ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)),
 
 def blocks():
     """(page, command, text)."""
-    folder = os.path.join(ROOT, "docs")
-    for name in sorted(os.listdir(folder)):
-        if name.endswith(".md"):
-            with open(os.path.join(folder, name), encoding="utf-8") as file:
-                for match in re.finditer(
-                    r"^<!-- prints ([^\n]+) -->\n```text\n(.*?)^```$", file.read(), flags=re.S | re.M
-                ):
-                    yield name, match[1].split(), match[2]
+    for page in sorted(p.relative_to(ROOT).as_posix() for p in pathlib.Path(ROOT, "docs").rglob("*.md")):
+        with open(os.path.join(ROOT, page), encoding="utf-8") as file:
+            for match in re.finditer(r"^<!-- prints ([^\n]+) -->\n```text\n(.*?)^```$", file.read(), flags=re.S | re.M):
+                yield page, match[1].split(), match[2]
 
 
 def python_with_numpy():
@@ -49,7 +46,7 @@ def main(build):
     for page, (name, *arguments), text in blocks():
         command, environment = program_of(name, build)
         if not command:
-            print(f"SKIPPED: docs/{page}: {name}: {environment}")
+            print(f"SKIPPED: {page}: {name}: {environment}")
             continue
         run = subprocess.run(
             command + arguments,
@@ -63,7 +60,7 @@ def main(build):
         )
         compared += 1
         if run.stdout != text:
-            faults.append(f"docs/{page}: {name} prints\n{run.stdout}and not\n{text}")
+            faults.append(f"{page}: {name} prints\n{run.stdout}and not\n{text}")
     if faults:
         sys.exit("\n".join(faults))
     if not compared:

@@ -10,7 +10,7 @@ import unittest
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", ".."))
 REPORT = os.path.join(ROOT, "bench", "report.py")
-DOCS = os.path.join(ROOT, "docs")
+DOCS = os.path.join(ROOT, "docs", "evidence")
 FIELDS = ("date cpu build command scene title tets vertices bodies contacts mean_edge entrant kind steps median_ns fastest_ns "
           "setup_ns bytes cell_size agrees").split()
 # Milliseconds of a step, bytes a tetrahedron.
@@ -133,7 +133,7 @@ class Pages(unittest.TestCase):
             with open(os.path.join(self.folder, name), encoding="utf-8") as file:
                 text = file.read()
         with open(os.path.join(DOCS, name), encoding="utf-8") as file:
-            self.assertTrue(text == file.read(), f"docs/{name} is not what its program makes of docs/*.csv")
+            self.assertTrue(text == file.read(), f"docs/evidence/{name} is not what its program makes of docs/evidence/*.csv")
 
     def test_performance(self):
         results, picture = os.path.join(DOCS, "performance.csv"), os.path.join(self.folder, "performance.svg")

@@ -94,8 +94,8 @@ def quotes_that_differ(path, text, text_at):
 class Links(unittest.TestCase):
     def test_repository(self):
         found = [fault for path in files(".md") for fault in faults_of(path, text_of(path), in_repository, text_or_names)]
-        # What docs/paper.md is made of: its links are those of that page.
-        found += faults_of("docs/paper.md.in", text_of("bench/paper/paper.md.in"), in_repository, text_or_names)
+        # What docs/evidence/paper.md is made of: its links are those of that page.
+        found += faults_of("docs/evidence/paper.md.in", text_of("bench/paper/paper.md.in"), in_repository, text_or_names)
         if found:
             self.fail("\n" + "\n".join(found))
 

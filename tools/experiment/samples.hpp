@@ -25,7 +25,7 @@ std::vector<std::size_t> order_of_round(std::size_t count, std::uint64_t seed, s
 // The time of one cell size: the mean over the frames of the median over the rounds, each of which has a time
 // for every frame. A frame means the same work in every round, so a disturbance affects only the frames in
 // which it happens, not the whole round. Medians are used because on a busy machine the minimum over the
-// rounds depends on a few lucky ones (docs/paper.md has figures).
+// rounds depends on a few lucky ones (docs/evidence/paper.md has figures).
 double time_of_rounds(const std::vector<std::vector<std::uint64_t>>& rounds);
 
 } // namespace tool

@@ -54,7 +54,7 @@ function crossing(scene, best, factor, most) {
   return inside;
 }
 
-// A, of which the paper's tables and docs/paper.csv say nothing, from the best cell size that it leads to.
+// A, of which the paper's tables and docs/evidence/paper.csv say nothing, from the best cell size that it leads to.
 export function areaFrom(size, best, pNc = defaults.pNc, ratio = defaults.ratio) {
   const k = (3 * size * pNc) / (best * best * (4 * best - size));
   return ((1 - pNc) * ratio * 3 * Math.sqrt(3)) / (2 * k);

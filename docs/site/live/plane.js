@@ -2,7 +2,7 @@
 
 import {sweep} from "./cost_model.js";
 
-export const testShare = 0.2;  // of a cell visit: about what docs/paper.md measures (0.12 to 0.22)
+export const testShare = 0.2;  // of a cell visit: about what docs/evidence/paper.md measures (0.12 to 0.22)
 
 // Two bodies of triangles about one unit wide, on a lattice that is bent.
 export function bodiesInThePlane() {

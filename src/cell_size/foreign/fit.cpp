@@ -1,7 +1,7 @@
 // Least squares that is repeated with weights from its own errors: P. J. Huber, Robust Statistics, 1981, ch.
 // 7, with the weights of a Cauchy distribution, on the slow side alone: a timing can be disturbed, which
 // makes it longer, never shorter. Losses in the comments are those of replays on the curves of
-// docs/foreign-grids.svg.
+// docs/evidence/foreign-grids.svg.
 #include "cell_size/foreign/fit.hpp"
 
 #include "base/array.hpp"
