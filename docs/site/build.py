@@ -34,41 +34,39 @@ SKIPPED = 77
 NAVIGATION = [
     {"Home": "docs/site/home.md"},
     {
-        "Start": [
-            "docs/README.md",
-            {"Overview": "README.md"},
-            "docs/install.md",
+        "Get started": [
+            "docs/get-started.md",
             {"Games": "docs/for-games.md"},
             {"Simulation and surgery": "docs/for-simulation.md"},
             {"Research, in Python": "docs/for-research.md"},
             {"Tools and pipelines": "docs/for-tools.md"},
-            {"Maintainers": "docs/for-maintainers.md"},
             {"Examples": "examples/README.md"},
+            "docs/install.md",
+            "docs/mistakes.md",
+            "docs/faq.md",
+            "docs/glossary.md",
+            {"All pages": "docs/README.md"},
+            {"The README": "README.md"},
         ]
     },
     {
-        "The paper": [
-            {"In five minutes": "docs/paper-explained.md"},
-            "docs/cell-size.md",
-            "docs/your-own-grid.md",
-            "docs/evidence/paper.md",
-            "docs/evidence/regret.md",
-        ]
-    },
-    {
-        "Guide": [
+        "Tasks": [
             "docs/contacts.md",
-            "docs/depth.md",
             "docs/cutting.md",
             "docs/surface-pairs.md",
-            "docs/sim.md",
             "docs/files.md",
             "docs/tetrahedralize.md",
-            "docs/command-line.md",
+            "docs/your-own-grid.md",
+            "docs/sim.md",
             "docs/snapshot.md",
             "docs/distributed.md",
-            "docs/limits.md",
-            "docs/evidence/performance.md",
+        ]
+    },
+    {
+        "Ideas": [
+            {"The paper in five minutes": "docs/paper-explained.md"},
+            "docs/cell-size.md",
+            "docs/depth.md",
         ]
     },
     {
@@ -80,19 +78,30 @@ NAVIGATION = [
             {"JavaScript": "bindings/js/README.md"},
             {"MuJoCo": "bindings/mujoco/README.md"},
             {"Go, Java, Julia, yours": "docs/other-languages.md"},
-            {"How they are made": "bindings/README.md"},
+            "docs/command-line.md",
+            "docs/limits.md",
         ]
     },
     "reference",
     {
+        "Evidence": [
+            "docs/evidence/README.md",
+            "docs/evidence/performance.md",
+            "docs/evidence/regret.md",
+            "docs/evidence/paper.md",
+            {"Benchmarks": "bench/README.md"},
+            {"Tried for speed": "bench/TRIED.md"},
+            {"Tests": "tests/README.md"},
+        ]
+    },
+    {
         "Inside": [
+            {"Maintainers": "docs/for-maintainers.md"},
             {"How it works": "src/README.md"},
             "docs/engine.md",
             "docs/abi.md",
             "docs/renamed.md",
-            {"Speed": "bench/README.md"},
-            {"Tried for speed": "bench/TRIED.md"},
-            {"Tests": "tests/README.md"},
+            {"Bindings": "bindings/README.md"},
             "CONTRIBUTING.md",
             "RELEASING.md",
             "SECURITY.md",
@@ -172,6 +181,8 @@ def prepare(version):
     shutil.rmtree(os.path.join(BUILD, "pages"), ignore_errors=True)
     described = reference.Reference()
     playground = os.path.exists(os.path.join(PLAYGROUND, "index.html"))
+    if not playground:
+        print("docs: build/web is empty, so this site has no playground: ./dev web builds it")
     site = pages.collect(described.places, playground=playground)
     links = examples_of_sections(site)
     for name in pages.REFERENCE:
