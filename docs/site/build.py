@@ -101,6 +101,7 @@ NAVIGATION = [
             "docs/engine.md",
             "docs/abi.md",
             "docs/renamed.md",
+            "docs/style.md",
             {"Bindings": "bindings/README.md"},
             "CONTRIBUTING.md",
             "RELEASING.md",
