@@ -258,7 +258,8 @@ def main():
     print(f"* Machine: {run['cpu']}, one thread\n* Build: {run['build']}\n* Date: {run['date']}\n"
           f"* Contacts: {'the same from all' if all(r['agrees'] == '1' for r in rows) else '**NOT** the same from all'}\n")
     if len(sys.argv) == 3:
-        print(f"![Nanoseconds a tetrahedron, by scene]({sys.argv[2]})\n")
+        print(f"![In five scenes: the default step of vox, the fastest other library, the paper's algorithm]({sys.argv[2].replace('.svg', '-short.svg')})\n")
+        print(f"All scenes:\n\n![Nanoseconds per tetrahedron, by scene]({sys.argv[2]})\n")
     if comparisons:
         print("## In short\n")
         in_short(comparisons)

@@ -131,11 +131,13 @@ class Pages(unittest.TestCase):
             self.assertTrue(text == file.read(), f"docs/evidence/{name} is not what its program makes of docs/evidence/*.csv")
 
     def test_performance(self):
-        results, picture = os.path.join(DOCS, "performance.csv"), os.path.join(self.folder, "performance.svg")
+        results = os.path.join(DOCS, "performance.csv")
+        pictures = [os.path.join(self.folder, name) for name in ("performance.svg", "performance-short.svg")]
         self.same("performance.md", subprocess.run([sys.executable, "-B", REPORT, results, "performance.svg"], capture_output=True,
                                                    encoding="utf-8", check=True).stdout)
-        subprocess.run([sys.executable, "-B", os.path.join(ROOT, "bench", "plot.py"), results, picture], check=True)
-        self.same("performance.svg")
+        subprocess.run([sys.executable, "-B", os.path.join(ROOT, "bench", "plot.py"), results, *pictures], check=True)
+        for picture in pictures:
+            self.same(os.path.basename(picture))
 
     def test_paper(self):
         try:
