@@ -57,6 +57,8 @@ NAVIGATION = [
             "docs/files.md",
             "docs/tetrahedralize.md",
             "docs/your-own-grid.md",
+            "docs/agents.md",
+            "docs/point-search.md",
             "docs/sim.md",
             "docs/snapshot.md",
             "docs/distributed.md",
