@@ -58,9 +58,15 @@ NAVIGATION = [
     {
         "Guide": [
             "docs/contacts.md",
+            "docs/push-apart.md",
+            "docs/events.md",
+            "docs/filters.md",
+            "docs/edges.md",
+            "docs/queries.md",
             "docs/depth.md",
             "docs/cutting.md",
             "docs/surface-pairs.md",
+            "docs/ipc-broad-phase.md",
             "docs/sim.md",
             "docs/files.md",
             "docs/tetrahedralize.md",
@@ -69,6 +75,9 @@ NAVIGATION = [
             "docs/distributed.md",
             "docs/limits.md",
             "docs/evidence/performance.md",
+            "docs/evidence/costs.md",
+            "docs/evidence/hard-scenes.md",
+            "docs/evidence/surface-pairs.md",
         ]
     },
     {
@@ -88,6 +97,7 @@ NAVIGATION = [
         "Inside": [
             {"How it works": "src/README.md"},
             "docs/engine.md",
+            "docs/depth-method.md",
             "docs/abi.md",
             "docs/renamed.md",
             {"Speed": "bench/README.md"},

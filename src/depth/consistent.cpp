@@ -1,5 +1,5 @@
 // Stages 2 to 4 of Heidelberger, Teschner, Keiser, Mueller, Gross, "Consistent Penetration Depth Estimation
-// for Deformable Collision Response", Vision, Modeling, Visualization 2004. docs/depth.md says what differs,
+// for Deformable Collision Response", Vision, Modeling, Visualization 2004. docs/depth-method.md says what differs,
 // and why.
 #include "depth/consistent.hpp"
 
