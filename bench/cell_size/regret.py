@@ -115,7 +115,7 @@ def main():
     put(page, "regret", "\n" + text)
     with open(page.rsplit("/", 1)[0] + "/regret.md", "w", encoding="utf-8") as file:
         file.write("# What each rule for the cell size loses, scene by scene\n\n"
-                   "Regrets, and sizes in mean edges, written by `bench/cell_size/regret.py`; [cell-size.md](../cell-size.md) explains both.\n"
+                   "Regrets, and sizes in mean edges, written by `bench/cell_size/regret.py`; [cell-size.md](cell-size.md#what-each-rule-loses) explains both.\n"
                    "A negative regret is better than the best uniform size of the sweep, by noise or by several cell sizes.\n\n"
                    + details(ordered))
 

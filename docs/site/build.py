@@ -53,6 +53,8 @@ NAVIGATION = [
             "docs/your-own-grid.md",
             "docs/evidence/paper.md",
             "docs/evidence/regret.md",
+            "docs/evidence/cell-size.md",
+            "docs/evidence/foreign-grids.md",
         ]
     },
     {
@@ -78,6 +80,7 @@ NAVIGATION = [
             "docs/evidence/costs.md",
             "docs/evidence/hard-scenes.md",
             "docs/evidence/surface-pairs.md",
+            "docs/evidence/distributed.md",
         ]
     },
     {
@@ -98,6 +101,8 @@ NAVIGATION = [
             {"How it works": "src/README.md"},
             "docs/engine.md",
             "docs/depth-method.md",
+            "docs/cost-models.md",
+            "docs/grid-counts.md",
             "docs/abi.md",
             "docs/renamed.md",
             {"Speed": "bench/README.md"},
