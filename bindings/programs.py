@@ -1,5 +1,5 @@
 """usage: programs.py PAGE LANGUAGE BUILD_FOLDER [WORDS]: runs the program in that language that stands on a page (README.md,
-docs/other-languages.md), against the libraries in a build folder; Python, C#, Rust and JavaScript by the commands that the README
+docs/go.md, docs/java.md), against the libraries in a build folder; Python, C#, Rust and JavaScript by the commands that the README
 of the binding gives. It has to print these words: where none are given, the hash of its contacts, the same in every language.
 Ends with 77, and says why, where the language's tools or package are missing."""
 

@@ -71,6 +71,7 @@ NAVIGATION = [
             "docs/ipc-broad-phase.md",
             "docs/sim.md",
             "docs/files.md",
+            "docs/file-formats.md",
             "docs/tetrahedralize.md",
             "docs/command-line.md",
             "docs/snapshot.md",
@@ -81,6 +82,7 @@ NAVIGATION = [
             "docs/evidence/hard-scenes.md",
             "docs/evidence/surface-pairs.md",
             "docs/evidence/distributed.md",
+            "docs/evidence/limits.md",
         ]
     },
     {
@@ -92,6 +94,9 @@ NAVIGATION = [
             {"JavaScript": "bindings/js/README.md"},
             {"MuJoCo": "bindings/mujoco/README.md"},
             {"Go, Java, Julia, yours": "docs/other-languages.md"},
+            "docs/go.md",
+            "docs/java.md",
+            "docs/julia.md",
             {"How they are made": "bindings/README.md"},
         ]
     },
