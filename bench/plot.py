@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Draws the benchmark's results: nanoseconds a tetrahedron for every scene and entrant, and how vox grows: with
-constraints, and contacts alone.
+constraints, and contacts alone. SHORT is a picture of five scenes for readers who want no more.
 
-usage: plot.py RESULTS.csv CHART.svg
+usage: plot.py RESULTS.csv CHART.svg [SHORT.svg]
 """
 
 import math
@@ -19,6 +19,8 @@ PEERS = [("blue", "square"), ("sky", "left"), ("orange", "diamond"), ("green", "
          ("olive", "square"), ("teal", "diamond")]
 LINES = ("blue", "orange", "green", "violet")
 LEFT, RIGHT, ROW = 345, 740, 30
+SHORT = {"contact-1": "two bodies touch", "self": "a body and itself", "bodies-1k": "1000 bodies", "bunny-deep": "bunny in bunny",
+         "coincident": "all in one place"}
 
 
 def scenes_height(scenes):
@@ -68,10 +70,37 @@ def draw_growth(chart, runs, top, _):
     chart.legend(40, top + 10, [*keys, (F2, chart.line_key("grey", dash="6 4"))], 2, 360)
 
 
+def rounded(times):
+    return f"{times:.0f}" if times >= 10 else f"{times:.1f}"
+
+
+def draw_short(scenes, path):
+    """Of each scene, the default step, the fastest peer and the paper's algorithm; each bar as a share of the longest."""
+    scenes = [scene for name in SHORT for scene in scenes if scene.name == name and scene.is_comparison()]
+    chart = Chart(700, 84 * len(scenes) + 14, "Time of a step that finds the same contacts, in five scenes")
+    chart.FONT = 18
+    left, right, thick = 190, 440, 21
+    for i, scene in enumerate(scenes):
+        top = 12 + 84 * i
+        entrants = [(CONTACTS, "vox", "vox"), (scene.best_peer(), "blue", f"{scene.best_peer()}"),
+                    (REFERENCE, "grey", "paper's algorithm")]
+        longest = max(scene.ms(name) for name, _, _ in entrants)
+        chart.text(2, top + 16, SHORT[scene.name])
+        chart.text(2, top + 40, f"{scene.tets:,} tets")
+        for j, (name, colour, words) in enumerate(entrants):
+            y, width = top + j * (thick + 3), (right - left) * scene.ms(name) / longest
+            chart.add(f'<rect class="f {colour}" x="{left}" y="{y}" width="{max(width, 2):.1f}" height="{thick}"/>')
+            times = "" if j == 0 else f" × {rounded(scene.times_faster(CONTACTS, name))}"
+            chart.text(left + width + 6, y + 16, f"{words}{times}")
+    chart.write(path)
+
+
 def main():
-    if len(sys.argv) != 3:
+    if len(sys.argv) not in (3, 4):
         raise SystemExit(__doc__)
     rows, scenes = read(sys.argv[1])
+    if len(sys.argv) == 4:
+        draw_short(scenes, sys.argv[3])
     compared = [scene for scene in scenes if scene.is_comparison()]
     runs = [scene for scene in scenes if not scene.is_comparison() and F2 in scene.rows
             and (SUBJECT in scene.rows or CONTACTS in scene.rows)]

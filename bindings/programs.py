@@ -1,7 +1,7 @@
-"""usage: programs.py PAGE LANGUAGE BUILD_FOLDER [WORDS]: runs the program in that language that stands on a page (README.md,
-docs/go.md, docs/java.md), against the libraries in a build folder; Python, C#, Rust and JavaScript by the commands that the README
-of the binding gives. It has to print these words: where none are given, the hash of its contacts, the same in every language.
-Ends with 77, and says why, where the language's tools or package are missing."""
+"""usage: programs.py PAGE LANGUAGE BUILD_FOLDER [WORDS]: runs the program in that language on a page (docs/get-started.md,
+docs/go.md, docs/java.md) against the libraries in a build folder; C, C++, Python, C#, Rust and JavaScript by the commands that
+docs/get-started.md gives. It has to print these words: without any, the hash of its contacts, the same in every language.
+Ends with 77, and says why, if the language's tools or package are missing."""
 
 import glob
 import os
@@ -14,6 +14,7 @@ import tempfile
 HASH = "20dfe036a1d1bec0"
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(HERE)
+START = os.path.join(ROOT, "docs", "get-started.md")
 
 
 def skip(why):
@@ -27,10 +28,13 @@ def need(*tools):
             skip(f"there is no {tool}: the program is not run")
 
 
-def block(page, language, words=""):
-    """The only block of a language on a page, of those with these words in it."""
+def block(page, language, words="", tab=""):
+    """The only block of a language on a page, or in one of its tabs, among the blocks with these words."""
     with open(page, encoding="utf-8") as file:
-        found = [text for text in re.findall(rf"^```{language}\n(.*?)^```$", file.read(), flags=re.S | re.M) if words in text]
+        text = file.read()
+    if tab:
+        text = text.split(f"<summary><b>{tab}</b></summary>", 1)[1].split("</details>", 1)[0]
+    found = [text for text in re.findall(rf"^```{language}\n(.*?)^```$", text, flags=re.S | re.M) if words in text]
     if len(found) != 1:
         sys.exit(f"{page} has {len(found)} blocks of {language} with {words!r}, not one")
     return found[0]
@@ -51,7 +55,8 @@ class Program:
         # As in a clone, with the build folder where ./dev demo has it.
         os.makedirs(os.path.join(folder, "build"))
         os.symlink(build, os.path.join(folder, "build", "release"))
-        os.symlink(HERE, os.path.join(folder, "bindings"))
+        for name in ("bindings", "include"):
+            os.symlink(os.path.join(ROOT, name), os.path.join(folder, name))
 
     def run(self, *command, **variables):
         """Runs a command in the folder; what it printed."""
@@ -61,9 +66,9 @@ class Program:
             sys.exit(f"{' '.join(command)} ended with {done.returncode}:\n{done.stdout}")
         return done.stdout
 
-    def commands(self, readme, leave_out=None, **variables):
-        """Runs the commands that a binding's README gives for a program; what they printed."""
-        lines = block(os.path.join(HERE, readme), "sh", "program").splitlines()
+    def commands(self, tab, leave_out=None, **variables):
+        """Runs the commands of a tab of docs/get-started.md, which a binding's README repeats; what they printed."""
+        lines = block(START, "sh", "program", tab).splitlines()
         kept = "\n".join(line for line in lines if not leave_out or not line.startswith(leave_out))
         return self.run("sh", "-ec", kept, **variables)
 
@@ -92,6 +97,16 @@ class Program:
         self.run("javac", "-Xlint:all", "-Werror", "Vox.java")
         return self.run("java", "-Xcheck:jni", "-Djava.library.path=.", "Vox", LD_LIBRARY_PATH=self.library)
 
+    def c(self):
+        need("cc")
+        self.write("program.c", "c")
+        return self.commands("C")
+
+    def cpp(self):
+        need("c++")
+        self.write("program.cpp", "cpp")
+        return self.commands("C++")
+
     def python(self):
         if not os.path.exists(os.path.join(HERE, "python", "src", "voxtet", "__init__.py")):
             skip("the Python package is not here")
@@ -99,22 +114,22 @@ class Program:
         for python in (sys.executable, "/usr/bin/python3"):
             if os.path.exists(python) and not subprocess.run([python, "-c", "import numpy"], capture_output=True).returncode:
                 path = os.pathsep.join([os.path.dirname(python), os.environ["PATH"]])
-                return self.commands("python/README.md", PATH=path, PYTHONDONTWRITEBYTECODE="1")
+                return self.commands("Python", PATH=path, PYTHONDONTWRITEBYTECODE="1")
         return skip("there is no numpy: the program is not run")
 
     def csharp(self):
         need("mcs", "mono")
         self.write("program.cs", "csharp")
-        return self.commands("csharp/README.md")
+        return self.commands("C#")
 
     def rust(self):
         need("cargo")
         self.write("src/main.rs", "rust")
-        dependency = block(os.path.join(HERE, "rust/voxtet/README.md"), "toml")
+        dependency = block(START, "toml")
         write(self.folder, "Cargo.toml", f'[package]\nname = "program"\nversion = "0.0.0"\nedition = "2021"\n\n{dependency}')
         if subprocess.run(["cargo", "fetch", "--quiet"], cwd=self.folder, capture_output=True).returncode:
             skip("crates cannot be fetched: the program is not run")
-        return self.commands("rust/voxtet/README.md", CARGO_TARGET_DIR=os.path.join(self.build, "rust"), CARGO_PROFILE_DEV_DEBUG="0",
+        return self.commands("Rust", CARGO_TARGET_DIR=os.path.join(self.build, "rust"), CARGO_PROFILE_DEV_DEBUG="0",
                              CARGO_INCREMENTAL="0", CARGO_NET_OFFLINE="true", CARGO_TERM_QUIET="true")
 
     def javascript(self):
@@ -122,7 +137,7 @@ class Program:
         if not glob.glob(os.path.join(HERE, "js", "*.wasm")):
             skip("the module is not built")
         self.write("program.mjs", "js")
-        return self.commands("js/README.md", leave_out="bindings/js/build") # which the binding's own test runs
+        return self.commands("JavaScript", leave_out="bindings/js/build") # which the binding's own test runs
 
 
 def main():

@@ -18,6 +18,16 @@ namespace {
 constexpr double width = 800, height = 480, left = 76, right = 24, above = 64, below = 56;
 // Costs are drawn from 0 to this many times the minimum.
 constexpr double top = 4;
+// In light and in dark.
+constexpr const char* style =
+    "<style>.paper{fill:#fff}text{fill:#222}.dim{fill:#666}.line{stroke:#ddd}.curve{fill:none;stroke:#1f6fb2;"
+    "stroke-width:2.5}.zone{fill:#dcebdc}.best{fill:#2c7a2c}.rule{fill:#b0762b;stroke:#b0762b;stroke-"
+    "dasharray:3 3}"
+    ".label{fill:#7d5015;paint-order:stroke;stroke:#fff;stroke-width:4}"
+    "@media "
+    "(prefers-color-scheme:dark){.paper{fill:#14171c}text{fill:#ddd}.dim{fill:#999}.line{stroke:#333842}"
+    ".curve{stroke:#64a8e0}.zone{fill:#1f3326}.best{fill:#6cc47a}.rule{fill:#d9a05a;stroke:#d9a05a}"
+    ".label{fill:#e8bd85;stroke:#14171c}}</style>\n";
 
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
@@ -42,10 +52,7 @@ public:
         const double part = (std::log(cell_size) - first_) / (last_ - first_);
         return left + std::clamp(part, 0.0, 1.0) * (width - left - right);
     }
-    double y(double cost) const {
-        const double part = std::min(cost / least_, top) / top;
-        return height - below - part * (height - above - below);
-    }
+    double y(double cost) const { return height - below - cost / least_ / top * (height - above - below); }
     bool shows(double cell_size) const {
         return cell_size > 0 && std::log(cell_size) >= first_ && std::log(cell_size) <= last_;
     }
@@ -68,6 +75,33 @@ std::vector<double> round_sizes(const vox_cell_size_result& c) {
     return sizes;
 }
 
+// What each rule costs: a label to a row, inward, the outermost first, so that hardly a line crosses a label.
+void add_rules(std::string& text, const Axes& axes, std::span<const vox_cell_size_rule> rules) {
+    constexpr double middle = (left + width - right) / 2, row = 18;
+    std::vector<const vox_cell_size_rule*> shown;
+    for (const vox_cell_size_rule& rule : rules)
+        if (axes.shows(rule.cell_size) && axes.y(rule.cost) > above) shown.push_back(&rule);
+    const auto aside = [&](const vox_cell_size_rule* rule) {
+        return std::abs(axes.x(rule->cell_size) - middle);
+    };
+    std::sort(shown.begin(), shown.end(), [&](auto* a, auto* b) { return aside(a) > aside(b); });
+    double label = above + row;
+    std::string labels; // over all lines
+    for (const vox_cell_size_rule* rule : shown) {
+        const double x = axes.x(rule->cell_size), y = axes.y(rule->cost);
+        const bool on_right = x > middle;
+        add(text,
+            "<path class=\"rule\" d=\"M%.2f %.2fV%.2f\"/>\n<circle class=\"rule\" cx=\"%.2f\" cy=\"%.2f\" "
+            "r=\"4\"/>\n",
+            x, label, y, x, y);
+        add(labels, "<text class=\"label\" x=\"%.2f\" y=\"%.2f\" text-anchor=\"%s\">%s, %+.0f %%</text>\n",
+            on_right ? x - 6 : x + 6, label + 4, on_right ? "end" : "start", rule->name,
+            100 * (rule->cost / axes.least() - 1));
+        label += row;
+    }
+    text += labels;
+}
+
 } // namespace
 
 std::string short_names(const std::vector<std::string>& files) {
@@ -85,55 +119,46 @@ std::string curve_svg(const vox_cell_size_result& c, const std::string& words) {
     std::string text;
     add(text,
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %g %g\" font-family=\"sans-serif\" "
-        "font-size=\"13\">\n<title>Predicted cost over cell size</title>\n<rect width=\"%g\" height=\"%g\" "
-        "fill=\"white\"/>\n",
-        width, height, width, height);
+        "font-size=\"13\">\n<title>Predicted cost over cell size</title>\n",
+        width, height);
+    text += style;
+    add(text, "<rect class=\"paper\" width=\"%g\" height=\"%g\"/>\n", width, height);
+    add(text, "<clipPath id=\"frame\"><rect x=\"%g\" y=\"%g\" width=\"%g\" height=\"%g\"/></clipPath>\n",
+        left, above, width - left - right, floor_y - above);
     add(text, "<text x=\"%g\" y=\"24\" font-size=\"17\">Predicted cost over cell size</text>\n", left);
-    add(text, "<text x=\"%g\" y=\"46\" fill=\"#555\">", left);
+    add(text, "<text x=\"%g\" y=\"46\" class=\"dim\">", left);
     text += xml_text(words) + "</text>\n";
     add(text,
         "<text transform=\"translate(20 %g) rotate(-90)\" text-anchor=\"middle\">cost, in units of the "
         "least</text>\n",
         (above + floor_y) / 2);
-    add(text, "<rect x=\"%.2f\" y=\"%g\" width=\"%.2f\" height=\"%.2f\" fill=\"#dcebdc\"/>\n",
+    add(text, "<rect x=\"%.2f\" y=\"%g\" width=\"%.2f\" height=\"%.2f\" class=\"zone\"/>\n",
         axes.x(c.zone_min), above, axes.x(c.zone_max) - axes.x(c.zone_min), floor_y - above);
     for (int times = 0; times <= static_cast<int>(top); ++times) {
         const double y = axes.y(times * axes.least());
-        add(text, "<line x1=\"%g\" y1=\"%.2f\" x2=\"%g\" y2=\"%.2f\" stroke=\"#ddd\"/>\n", left, y,
+        add(text, "<line x1=\"%g\" y1=\"%.2f\" x2=\"%g\" y2=\"%.2f\" class=\"line\"/>\n", left, y,
             width - right, y);
         add(text, "<text x=\"%g\" y=\"%.2f\" text-anchor=\"end\">%d&#215;</text>\n", left - 8, y + 4, times);
     }
     for (const double size : round_sizes(c)) {
-        add(text, "<line x1=\"%.2f\" y1=\"%.2f\" x2=\"%.2f\" y2=\"%.2f\" stroke=\"#888\"/>\n", axes.x(size),
+        add(text, "<line x1=\"%.2f\" y1=\"%.2f\" x2=\"%.2f\" y2=\"%.2f\" class=\"line\"/>\n", axes.x(size),
             floor_y, axes.x(size), floor_y + 5);
         add(text, "<text x=\"%.2f\" y=\"%.2f\" text-anchor=\"middle\">%g</text>\n", axes.x(size),
             floor_y + 20, size);
     }
     add(text, "<text x=\"%g\" y=\"%g\" text-anchor=\"middle\">cell size</text>\n", (left + width - right) / 2,
         height - 12);
-    text += "<polyline fill=\"none\" stroke=\"#1f5fa8\" stroke-width=\"2.5\" points=\"";
+    text += "<polyline class=\"curve\" clip-path=\"url(#frame)\" points=\"";
     for (const vox_cost_sample& sample : std::span(c.curve).first(c.curve_count))
         add(text, "%.2f,%.2f ", axes.x(sample.cell_size), axes.y(sample.cost));
     text += "\"/>\n";
 
-    double label = above + 16; // labels are placed one below the other, so that they never overlap
-    for (const vox_cell_size_rule& rule : std::span(c.rules).first(c.rule_count)) {
-        if (!axes.shows(rule.cell_size)) continue;
-        const double x = axes.x(rule.cell_size), y = axes.y(rule.cost);
-        add(text,
-            "<line x1=\"%.2f\" y1=\"%.2f\" x2=\"%.2f\" y2=\"%.2f\" stroke=\"#b0762b\" stroke-dasharray=\"3 "
-            "3\"/>\n",
-            x, label, x, y);
-        add(text, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"4\" fill=\"#b0762b\"/>\n", x, y);
-        const bool on_left = x > (left + width - right) / 2;
-        add(text, "<text x=\"%.2f\" y=\"%.2f\" text-anchor=\"%s\" fill=\"#7d5015\">%s, %+.0f %%</text>\n",
-            on_left ? x - 6 : x + 6, label + 4, on_left ? "end" : "start", rule.name,
-            100 * (rule.cost / axes.least() - 1));
-        label += 18;
-    }
-    add(text, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"6\" fill=\"#2c7a2c\"/>\n", axes.x(c.cell_size),
+    add(text, "<text x=\"%.2f\" y=\"%g\" text-anchor=\"middle\" class=\"best\">nearly as good</text>\n",
+        (axes.x(c.zone_min) + axes.x(c.zone_max)) / 2, floor_y - 10);
+    add_rules(text, axes, std::span(c.rules).first(c.rule_count));
+    add(text, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"6\" class=\"best\"/>\n", axes.x(c.cell_size),
         axes.y(c.cost));
-    add(text, "<text x=\"%.2f\" y=\"%.2f\" text-anchor=\"middle\" fill=\"#1f5c1f\">%.4g</text>\n",
+    add(text, "<text x=\"%.2f\" y=\"%.2f\" text-anchor=\"middle\" class=\"best\">%.4g</text>\n",
         axes.x(c.cell_size), axes.y(c.cost) + 22, c.cell_size);
     text += "</svg>\n";
     return text;

@@ -97,8 +97,8 @@ def draw(runs, path):
             return Panel(chart, 48 + 376 * column, top, 326, height, x, y, f"{engine} engine" if top < 30 else "")
 
         time = panel(26, 170, Axis(0, slowest, round_ticks(0, slowest), name="ms a step"))
-        size = panel(216, 170, Axis(1, 40, [1, 2, 5, 10, 20, 40], log=True, name="cell size, first edges"))
-        regret = panel(406, 140, Axis(-100, 30, {-50: "-50", 0: "0", 10: "10"}, name="regret, %"), "step")
+        size = panel(216, 170, Axis(1, 40, [1, 2, 5, 10, 20, 40], log=True, name="cell size, mean edges at first"))
+        regret = panel(406, 140, Axis(-100, 30, {-50: "-50", 0: "0", 10: "10"}, name="over the best, %"), "step")
         for name, first, last in phases(rows):
             for part in (time, size, regret):
                 part.upright(first, "grid", 1)
@@ -113,7 +113,7 @@ def draw(runs, path):
         regret.line(steps_of(middle, [100 * w[2] for w in found]), COLOURS["chosen"])
     chart.legend(60, 612, [("a grid that chooses its size", chart.line_key(COLOURS["chosen"])),
                            ("best of 20 fixed sizes, each window", chart.line_key(COLOURS["best"])),
-                           ("the best size", chart.mark_key(COLOURS["best"], size=2.5)), ("regret of 10 %", chart.line_key("vox", 1, "5 4"))], 2, 350)
+                           ("the best size", chart.mark_key(COLOURS["best"], size=2.5)), ("10 % over the best", chart.line_key("vox", 1, "5 4"))], 2, 350)
     chart.write(path)
 
 

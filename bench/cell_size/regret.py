@@ -67,6 +67,11 @@ def details(rows):
     return "\n".join(lines) + "\n"
 
 
+# How a picture names scenes.
+NAMES = {"overlap-1": "two bodies, touching", "self": "a body and itself", "overlap-50": "two bodies, half inside",
+         "graded-100": "two graded bodies"}
+
+
 def draw(path, curves):
     """Times of the reference engine over those of the best size, and its model as lines, fitted to them in height."""
     lines = {}
@@ -87,7 +92,7 @@ def draw(path, curves):
         panel.dots([(s, t / best) for s, t in zip(sizes, times)], colour, size=2.5)
         panel.line(list(zip(sizes, curve)), colour)
         panel.bar(zone[0], zone[-1], 0.15 * (i + 1), colour)
-    keys = [(scene, chart.line_key(colour)) for colour, scene in zip(colours, lines)]
+    keys = [(NAMES.get(scene, scene), chart.line_key(colour)) for colour, scene in zip(colours, lines)]
     keys += [("model", chart.line_key("dark")), ("measured", chart.mark_key("dark", size=2.5)), ("zone of 5 %", chart.line_key("dark", 4))]
     chart.legend(60, 366, keys, 4, 170)
     chart.write(path)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The README's table: what each rule for the cell size costs on a real pair of bodies.
+"""The table of docs/evidence/README.md: what each rule for the cell size costs on a real pair of bodies.
 
 usage: rules.py VOX MESH [X Y Z]   MESH against itself, the second one moved by X Y Z (default: half of its longest
 side along that axis). Prints markdown. Rounds are interleaved over all rules, figures are medians; the best cell size is

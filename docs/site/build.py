@@ -34,55 +34,46 @@ SKIPPED = 77
 NAVIGATION = [
     {"Home": "docs/site/home.md"},
     {
-        "Start": [
-            "docs/README.md",
-            {"Overview": "README.md"},
-            "docs/install.md",
+        "Get started": [
+            "docs/get-started.md",
             {"Games": "docs/for-games.md"},
             {"Simulation and surgery": "docs/for-simulation.md"},
             {"Research, in Python": "docs/for-research.md"},
             {"Tools and pipelines": "docs/for-tools.md"},
-            {"Maintainers": "docs/for-maintainers.md"},
             {"Examples": "examples/README.md"},
+            "docs/install.md",
+            "docs/mistakes.md",
+            "docs/faq.md",
+            "docs/glossary.md",
+            {"All pages": "docs/README.md"},
+            {"The README": "README.md"},
         ]
     },
     {
-        "The paper": [
-            {"In five minutes": "docs/paper-explained.md"},
-            "docs/cell-size.md",
-            "docs/your-own-grid.md",
-            "docs/evidence/paper.md",
-            "docs/evidence/regret.md",
-            "docs/evidence/cell-size.md",
-            "docs/evidence/foreign-grids.md",
-        ]
-    },
-    {
-        "Guide": [
+        "Tasks": [
             "docs/contacts.md",
             "docs/push-apart.md",
             "docs/events.md",
             "docs/filters.md",
             "docs/edges.md",
             "docs/queries.md",
-            "docs/depth.md",
             "docs/cutting.md",
             "docs/surface-pairs.md",
             "docs/ipc-broad-phase.md",
-            "docs/sim.md",
             "docs/files.md",
             "docs/file-formats.md",
             "docs/tetrahedralize.md",
-            "docs/command-line.md",
+            "docs/your-own-grid.md",
+            "docs/sim.md",
             "docs/snapshot.md",
             "docs/distributed.md",
-            "docs/limits.md",
-            "docs/evidence/performance.md",
-            "docs/evidence/costs.md",
-            "docs/evidence/hard-scenes.md",
-            "docs/evidence/surface-pairs.md",
-            "docs/evidence/distributed.md",
-            "docs/evidence/limits.md",
+        ]
+    },
+    {
+        "Ideas": [
+            {"The paper in five minutes": "docs/paper-explained.md"},
+            "docs/cell-size.md",
+            "docs/depth.md",
         ]
     },
     {
@@ -97,12 +88,32 @@ NAVIGATION = [
             "docs/go.md",
             "docs/java.md",
             "docs/julia.md",
-            {"How they are made": "bindings/README.md"},
+            "docs/command-line.md",
+            "docs/limits.md",
         ]
     },
     "reference",
     {
+        "Evidence": [
+            "docs/evidence/README.md",
+            "docs/evidence/performance.md",
+            "docs/evidence/costs.md",
+            "docs/evidence/hard-scenes.md",
+            "docs/evidence/cell-size.md",
+            "docs/evidence/regret.md",
+            "docs/evidence/foreign-grids.md",
+            "docs/evidence/paper.md",
+            "docs/evidence/surface-pairs.md",
+            "docs/evidence/distributed.md",
+            "docs/evidence/limits.md",
+            {"Benchmarks": "bench/README.md"},
+            {"Tried for speed": "bench/TRIED.md"},
+            {"Tests": "tests/README.md"},
+        ]
+    },
+    {
         "Inside": [
+            {"Maintainers": "docs/for-maintainers.md"},
             {"How it works": "src/README.md"},
             "docs/engine.md",
             "docs/depth-method.md",
@@ -110,9 +121,8 @@ NAVIGATION = [
             "docs/grid-counts.md",
             "docs/abi.md",
             "docs/renamed.md",
-            {"Speed": "bench/README.md"},
-            {"Tried for speed": "bench/TRIED.md"},
-            {"Tests": "tests/README.md"},
+            "docs/style.md",
+            {"Bindings": "bindings/README.md"},
             "CONTRIBUTING.md",
             "RELEASING.md",
             "SECURITY.md",
@@ -192,6 +202,8 @@ def prepare(version):
     shutil.rmtree(os.path.join(BUILD, "pages"), ignore_errors=True)
     described = reference.Reference()
     playground = os.path.exists(os.path.join(PLAYGROUND, "index.html"))
+    if not playground:
+        print("docs: build/web is empty, so this site has no playground: ./dev web builds it")
     site = pages.collect(described.places, playground=playground)
     links = examples_of_sections(site)
     for name in pages.REFERENCE:

@@ -54,7 +54,7 @@ def faults_of(path, text, exists, text_at):
             found.append(f"{path}:{line}: {target}: {where} has no such heading")
     text = re.sub(r"<!--.*?-->", lambda m: "\n" * m[0].count("\n"), text, flags=re.S)
     tree = TREE + (TREE_OF_SRC if folder == "src" else ())
-    for match in re.finditer(r"(?<![\w/.])(?:" + "|".join(tree) + r")/[\w./+-]*[\w+]", text):
+    for match in re.finditer(r"(?<![\w/.])(?:" + "|".join(tree) + r")/[\w./+~-]*[\w+]", text):
         name = match[0]
         line = text.count("\n", 0, match.start()) + 1
         ending = text[match.end():match.end() + 2]

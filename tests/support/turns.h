@@ -5,7 +5,7 @@
 #include <vox/vox.h>
 
 /* A task system without threads: one worker does all, or each in turn does as little as it may. Threads would
- * share the work as they happen to run, so that one of them may need more room than in any step before. */
+ * share it in another way in every run. */
 typedef struct turns {
     uint32_t worker_count;
     int in_turn;

@@ -273,8 +273,11 @@ class CommandLine(Files):
         self.assertEqual(len(points), 64)
         self.assertEqual(root.find("{http://www.w3.org/2000/svg}title").text, "Predicted cost over cell size")
         words = " | ".join(text.text for text in root.iter("{http://www.w3.org/2000/svg}text"))
-        for expected in "two.msh", "cost model of the paper", "cell size", "cost, in units of the least":
+        for expected in "two.msh", "cost model of the paper", "cell size", "cost, in units of the least", "nearly as good":
             self.assertIn(expected, words)
+        heights = [float(point.split(",")[1]) for point in points]  # a curve that is steeper than the picture leaves it
+        self.assertLess(min(heights[0], heights[-1]), 64)
+        self.assertIn("prefers-color-scheme:dark", root.find("{http://www.w3.org/2000/svg}style").text)
         odd = self.write("a&b <c>.msh", msh(TWO_TETS[:5], TETS))
         run_json("suggest", odd, "--svg", path)
         self.assertIn("a&b <c>.msh", "".join(xml.etree.ElementTree.parse(path).getroot().itertext()))

@@ -1,4 +1,4 @@
-"""Builds the README's program with the package, and compares what it prints."""
+"""Builds the first program with the package, and compares what it prints."""
 import os
 
 from conan import ConanFile
