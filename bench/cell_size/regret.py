@@ -113,8 +113,7 @@ def main():
     text = summary(ordered) + "\n" + by_size(ordered)
     page = sys.argv[1]
     if page == "-":
-        print(text)
-        print(details(ordered))
+        print(text, details(ordered), sep="\n")
         return
     text += f"\nScene by scene: {len(ordered)} rows in [regret.md](regret.md).\n"
     put(page, "regret", "\n" + text)
