@@ -1,5 +1,5 @@
 """usage: programs.py PAGE LANGUAGE BUILD_FOLDER [WORDS]: runs the program in that language on a page (docs/get-started.md,
-docs/other-languages.md) against the libraries in a build folder; C, C++, Python, C#, Rust and JavaScript by the commands that
+docs/go.md, docs/java.md) against the libraries in a build folder; C, C++, Python, C#, Rust and JavaScript by the commands that
 docs/get-started.md gives. It has to print these words: without any, the hash of its contacts, the same in every language.
 Ends with 77, and says why, if the language's tools or package are missing."""
 

@@ -113,14 +113,13 @@ def main():
     text = summary(ordered) + "\n" + by_size(ordered)
     page = sys.argv[1]
     if page == "-":
-        print(text)
-        print(details(ordered))
+        print(text, details(ordered), sep="\n")
         return
     text += f"\nScene by scene: {len(ordered)} rows in [regret.md](regret.md).\n"
     put(page, "regret", "\n" + text)
     with open(page.rsplit("/", 1)[0] + "/regret.md", "w", encoding="utf-8") as file:
         file.write("# What each rule for the cell size loses, scene by scene\n\n"
-                   "Regrets, and sizes in mean edges, written by `bench/cell_size/regret.py`; [cell-size.md](../cell-size.md) explains both.\n"
+                   "Regrets, and sizes in mean edges, written by `bench/cell_size/regret.py`; [cell-size.md](cell-size.md#what-each-rule-loses) explains both.\n"
                    "A negative regret is better than the best uniform size of the sweep, by noise or by several cell sizes.\n\n"
                    + details(ordered))
 

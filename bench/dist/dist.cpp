@@ -1,5 +1,5 @@
 // What a step of bodies on many ranks sends, beside what one grid bins and beside a floor:
-// docs/distributed.md. Counts, so no machine matters. usage: bench_dist [TETS]: of each rank in the scenes
+// docs/evidence/distributed.md. Counts, so no machine matters. usage: bench_dist [TETS]: of each rank in the scenes
 // that grow; default 100000
 #include "dist/ranks.hpp" // of tests/
 #include "dist/whole.hpp"

@@ -183,11 +183,11 @@ def notes(record, rows):
     noise = statistics.median(row["noise"] for row in rows)
     versions = ", ".join(f"{name} {version}" for name, version in sorted(record.get("versions", {}).items()))
     return (f"{record['cpu']}, {record['date']}; {versions or 'plain grids alone'}. A run takes {per_cent(noise)} % longer in the "
-            f"median than the fastest one at its size. Beside the mean edge the default call loses {per_cent(beside)} % at most ({worst}).\n")
+            f"median than the fastest one at its size. Compared with the mean edge the default call loses {per_cent(beside)} % at most ({worst}).\n")
 
 
 def report_text(record, rows):
-    return ("Loss in per cent beside the best size of the sweep: median, worst.\n\n" + table_of_grids(rows) + "\n" + table_of_ways(rows) +
+    return ("Loss in per cent, compared with the best size of the sweep: median, worst.\n\n" + table_of_grids(rows) + "\n" + table_of_ways(rows) +
             "\nPredicted counts, difference from counted ones in per cent: median, worst.\n\n" + table_of_counts(rows) + "\n" +
             notes(record, rows))
 

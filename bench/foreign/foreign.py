@@ -8,7 +8,7 @@ usage: foreign.py LIBVOX [--docs] [--seconds 150] [--meshes FOLDER] [--grids sor
     build/foreign/venv/bin/python bench/foreign/foreign.py build/release/src/libvox.so --docs
 
 LIBVOX is the shared library of vox. The tables are printed, and the picture is written beside the curves; with --docs they
-go to docs/cell-size.md and docs/evidence/foreign-grids.svg. --meshes takes the bodies of a folder (.msh) instead of generated ones:
+go to docs/evidence/foreign-grids.md and docs/evidence/foreign-grids.svg. --meshes takes the bodies of a folder (.msh) instead of generated ones:
 a check. --known also prints the weights that are shipped, fitted anew (a few minutes more). c++, or what $CXX names,
 compiles the plain grids."""
 
@@ -46,7 +46,7 @@ def main():
     given = [text for name in ("meshes", "grids", "scale") if getattr(options, name) for text in ("--" + name, getattr(options, name))]
     program("measure.py", plain, curves, "--seconds", options.seconds, "--primitives", primitives, *given)
     picture = os.path.join(ROOT, "docs", "evidence", "foreign-grids.svg") if options.docs else os.path.join(options.out, "foreign-grids.svg")
-    page = ["--page", os.path.join(ROOT, "docs", "cell-size.md")] if options.docs else []
+    page = ["--page", os.path.join(ROOT, "docs", "evidence", "foreign-grids.md")] if options.docs else []
     program("evaluate.py", curves, options.libvox, "--primitives", primitives, "--picture", picture,
             "--report", os.path.join(options.out, "report.json"), *page)
     if options.known:

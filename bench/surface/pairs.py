@@ -5,7 +5,7 @@ run. Checks that both find the same numbers of pairs, and that every pair that t
 with VOX_MOTION_CULL.
 
 usage: pairs.py LIBVOX FOLDER [--rounds N] [--radius R] [--scene NAME] [--sweep] [--json FILE] [--docs]
---docs writes the table of docs/surface-pairs.md.
+--docs writes the table of docs/evidence/surface-pairs.md.
 FOLDER holds the data's folders (armadillo-rollers, cloth-ball, ...), of which frames/, boxes/ and mma_bool/ are read."""
 
 import argparse
@@ -243,7 +243,7 @@ def run_scene(vox, folder, name, options, ipctk):
 
 
 def write_docs(rows):
-    page = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "docs", "surface-pairs.md")
+    page = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "docs", "evidence", "surface-pairs.md")
     lines = ["| scene | faces | pairs | LBVH ms | vox ms | ratio | copying the pairs ms | with culling ms | a pair ns | false pairs culled | "
              "true pairs lost | bytes a feature |", "|---|---|---|---|---|---|---|---|---|---|---|---|"]
     for row in rows:

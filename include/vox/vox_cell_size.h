@@ -7,7 +7,7 @@
  *   vox_foreign_grid_tune       the same, by running it at cell sizes that the library chooses
  *   vox_cost_minimise           any other algorithm, from a cost function of yours
  * All of them fill a vox_cell_size_result. A program that only collides bodies does not need this header: a vox_grid
- * chooses its cell size itself. docs/cell-size.md and docs/your-own-grid.md derive the formulas.
+ * chooses its cell size itself. docs/cost-models.md and docs/grid-counts.md derive the formulas.
  *
  * Conventions: those of vox.h, and
  *   Threads    Functions run on any thread at any time, and callbacks on the thread that calls. The process keeps no

@@ -33,12 +33,12 @@ typedef enum vox_io_format {
     VOX_IO_FORMAT_VEGA = 4,    /* .veg */
     VOX_IO_FORMAT_VTK = 5,     /* legacy .vtk, 2.0 to 5.1; ASCII and binary */
     /* XML .vtu: ASCII, base64, appended; raw or zlib. Reading it is UNSUPPORTED in a library that is built without
-     * pugixml and zlib (docs/files.md). */
+     * pugixml and zlib (docs/file-formats.md). */
     VOX_IO_FORMAT_VTU = 6,
     VOX_IO_FORMAT_SURFACE = 7, /* .stl, .obj, .ply, .off, .gltf, .glb; triangles, no tets */
     /* Any other surface that assimp reads. assimp is not made for damaged files: they can end the process, keep it
      * busy without end and fill its memory. So AUTO never chooses it, and a library that is built without it, as is the
-     * default (docs/files.md), answers UNSUPPORTED. */
+     * default (docs/file-formats.md), answers UNSUPPORTED. */
     VOX_IO_FORMAT_ASSIMP = 8
 } vox_io_format;
 

@@ -33,7 +33,7 @@ SampleBudget usual(vox_cost_model model, std::uint64_t tets) noexcept {
     return {summed, std::clamp<std::uint64_t>(tets / 32, 2048, 8192), summed, 64, 3, 48, 0.5, 0};
 }
 
-// Sample sizes are what keeps a suggestion below the time of a step (docs/cell-size.md, "What a suggestion
+// Sample sizes keep a suggestion below the time of a step (docs/evidence/cell-size.md, "What a suggestion
 // costs") with a regret within a few per cent of the thorough look: the tests hold the loss in the model's
 // own cost to 2 % for the reference engine and 3 % for the fast one.
 SampleBudget quick(vox_cost_model model, std::uint64_t tets) noexcept {

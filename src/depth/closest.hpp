@@ -76,7 +76,7 @@ public:
                       Closest& out) const;
 
     // Finds the point of the fold that a vertex at p has entered, which is in `tet` of the vertex's own mesh.
-    // docs/depth.md has the rule. Returns false when all triangles have the vertex.
+    // docs/depth-method.md has the rule. Returns false when all triangles have the vertex.
     bool find_in_fold(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet, SearchState& state,
                       Closest& out) const;
 

@@ -1,6 +1,6 @@
 // Stages 2 to 4 of Heidelberger, Teschner, Keiser, Mueller, Gross, "Consistent Penetration Depth Estimation
-// for Deformable Collision Response", Vision, Modeling, Visualization 2004. docs/depth.md says what differs,
-// and why.
+// for Deformable Collision Response", Vision, Modeling, Visualization 2004. docs/depth-method.md says what
+// differs, and why.
 #include "depth/consistent.hpp"
 
 #include "base/prefetch.hpp"

@@ -1,5 +1,5 @@
 // The depth stage, which makes one penetration of the contacts of each vertex of a body in another.
-// docs/depth.md describes the method; each part is a file in depth/.
+// docs/depth-method.md describes the method; each part is a file in depth/.
 #pragma once
 
 #include "base/array.hpp"

@@ -282,8 +282,11 @@ class Pages(unittest.TestCase):
                     self.assertEqual(int(base_number) ** int(power or 1) - int(less or 0), number_of(name), name)
 
     def test_every_limit_has_its_test(self):
-        rows = [row for row in text_of("docs", "limits.md").splitlines() if row.startswith("| ")][1:]
+        table = text_of("docs", "limits.md").split("\n## ")[0]
+        limits = [row.split(" | ")[0] for row in table.splitlines() if row.startswith("| ")][1:]
+        rows = [row for row in text_of("docs", "evidence", "limits.md").splitlines() if row.startswith("| ")][1:]
         self.assertGreater(len(rows), 20)
+        self.assertEqual([row.split(" | ")[0] for row in rows], limits)
         for row in rows:
             tests = re.findall(r"`(tests/[\w/.]+)`: (\w+)", row)
             self.assertTrue(tests, row)

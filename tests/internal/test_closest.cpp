@@ -194,8 +194,8 @@ bool is_local_minimum(const Solid& solid, const Place& place, const Vec3d& way) 
     return true;
 }
 
-// The rule of docs/depth.md, for a mesh of one part. `squared_exit` is where a line to the closest point
-// leaves the fold.
+// The rule of docs/depth-method.md, for a mesh of one part. `squared_exit` is where a line to the closest
+// point leaves the fold.
 Closest by_definition(const Solid& solid, std::uint32_t vertex, std::uint32_t tet, const Vec3d& p,
                       const std::vector<Closest>& all) {
     const auto reached = [&](const Vec3d& way) { return is_reached(solid, vertex, tet, p, way); };

@@ -16,7 +16,7 @@ namespace Voxtet
 
         public void Dispose() { handle.Dispose(); }
 
-        /// <summary>Reads a file of any format that docs/files.md lists.</summary>
+        /// <summary>Reads a file of any format that docs/file-formats.md lists.</summary>
         public static MeshFile Load(string path)
         {
             IntPtr mesh;

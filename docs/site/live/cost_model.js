@@ -1,4 +1,4 @@
-// The paper's cost function and what follows from it, as docs/cell-size.md derives it: plain functions over numbers.
+// The paper's cost function and what follows from it, as docs/cost-models.md derives it: plain functions over numbers.
 // A scene is {size, area, pNc, ratio}: s, A, p_nc and r of Eq. 3.
 
 export const defaults = {

@@ -1,6 +1,6 @@
 """vox as a broad phase of IPC Toolkit: `candidates.build(mesh, start, end, radius, voxtet.ipctk.BroadPhase())`. For tests and
 small scenes, as each candidate is a Python object there: for large ones take voxtet.surface, or in C++ the header of
-docs/surface-pairs.md. Experimental, as voxtet.surface is."""
+docs/ipc-broad-phase.md. Experimental, as voxtet.surface is."""
 
 from __future__ import annotations
 

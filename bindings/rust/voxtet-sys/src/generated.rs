@@ -299,13 +299,13 @@ pub const VOX_IO_FORMAT_VEGA: vox_io_format = 4;
 /// legacy .vtk, 2.0 to 5.1; ASCII and binary
 pub const VOX_IO_FORMAT_VTK: vox_io_format = 5;
 /// XML .vtu: ASCII, base64, appended; raw or zlib. Reading it is UNSUPPORTED in a library that is built without pugixml
-/// and zlib (docs/files.md).
+/// and zlib (docs/file-formats.md).
 pub const VOX_IO_FORMAT_VTU: vox_io_format = 6;
 /// .stl, .obj, .ply, .off, .gltf, .glb; triangles, no tets
 pub const VOX_IO_FORMAT_SURFACE: vox_io_format = 7;
 /// Any other surface that assimp reads. assimp is not made for damaged files: they can end the process, keep it busy
 /// without end and fill its memory. So AUTO never chooses it, and a library that is built without it, as is the default
-/// (docs/files.md), answers UNSUPPORTED.
+/// (docs/file-formats.md), answers UNSUPPORTED.
 pub const VOX_IO_FORMAT_ASSIMP: vox_io_format = 8;
 
 pub type vox_io_solid_kind = i32;

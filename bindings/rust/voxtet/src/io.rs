@@ -70,7 +70,7 @@ fn c_path(path: &Path) -> Result<CString> {
 }
 
 impl MeshFile {
-    /// Reads a file of any format that docs/files.md lists.
+    /// Reads a file of any format that docs/file-formats.md lists.
     pub fn load(path: impl AsRef<Path>) -> Result<Self> {
         let path = c_path(path.as_ref())?;
         // SAFETY: here and below, valid arguments that live during the call.
