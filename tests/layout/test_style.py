@@ -1,0 +1,75 @@
+"""Pages for users are short and plain: words, stand-ins for nouns, long sentences and figures are counted, and each count may only
+fall (docs/style.md)."""
+
+import re
+import unittest
+
+from repository import files, text_of
+
+# Pages that are read by maintainers, or looked things up in.
+INSIDE = {"docs/abi.md", "docs/cost-models.md", "docs/depth-method.md", "docs/engine.md", "docs/grid-counts.md",
+          "docs/for-maintainers.md", "docs/renamed.md", "docs/style.md"}
+REFERENCE = {"docs/command-line.md", "docs/install.md", "docs/limits.md"}
+MOST_LINES_OF_README = 130
+MOST_WORDS = 1500  # of a page
+MOST_WORDS_IN_ALL = 22000
+LONG = 35  # words of a sentence
+# Per 1,000 words of all pages for users. When the pages get better, the test asks for a lower ceiling.
+CEILINGS = {"stand-ins for nouns": 0, "long sentences": 0, "figures": 10.6}
+SLACK = .9
+
+
+def user_pages():
+    return ["README.md", *(path for path in files(".md", under="docs")
+                           if not path.startswith(("docs/evidence/", "docs/site/")) and path not in INSIDE | REFERENCE)]
+
+
+def words_of(text):
+    """Without code, remarks and addresses of links."""
+    text = re.sub(r"^```.*?^```|<!--.*?-->", "", text, flags=re.S | re.M)
+    return re.findall(r"[\w'’-]+", re.sub(r"\]\([^)]*\)", "]", text))
+
+
+def prose_of(text):
+    """Sentences of paragraphs and lists; no headings, tables, code."""
+    text = re.sub(r"^```.*?^```|<!--.*?-->|^#.*?$|^\|.*?$|^    .*?$|`[^`\n]*`|!\[.*?\]\(.*?\)", " code ", text, flags=re.S | re.M)
+    text = re.sub(r"\]\([^)]*\)", "]", text)
+    paragraphs = re.split(r"\n\s*\n|^\s*(?:[*-]|\d+\.) ", text, flags=re.M)
+    return [sentence for part in paragraphs for sentence in re.split(r"(?<=[.!?:])\s+", part) if sentence.strip()]
+
+
+def counts_of(texts):
+    """Per 1,000 words of prose."""
+    sentences = [sentence for text in texts for sentence in prose_of(text)]
+    prose = " ".join(sentences)
+    words = len(prose.split()) / 1000
+    return {
+        "stand-ins for nouns": len(re.findall(r"\b(?:that|those) of\b|\bthe one\b", prose, flags=re.I)) / words,
+        "long sentences": sum(len(sentence.split()) > LONG for sentence in sentences) / words,
+        "figures": len(re.findall(r"(?<![\w.-])\d[\d.,]*", prose)) / words,
+    }
+
+
+class Style(unittest.TestCase):
+    def test_length(self):
+        lengths = {path: len(words_of(text_of(path))) for path in user_pages()}
+        self.assertEqual({path: n for path, n in lengths.items() if n > MOST_WORDS}, {})
+        self.assertLessEqual(sum(lengths.values()), MOST_WORDS_IN_ALL)
+        self.assertLessEqual(text_of("README.md").count("\n"), MOST_LINES_OF_README)
+
+    def test_counts_only_fall(self):
+        for name, count in counts_of([text_of(path) for path in user_pages()]).items():
+            with self.subTest(name):
+                self.assertLessEqual(count, CEILINGS[name])
+                self.assertGreaterEqual(count, SLACK * CEILINGS[name], f"well done: lower the ceiling to {count:.2f}")
+
+    def test_each_is_noticed(self):
+        plain = "The grid finds the contacts. " * 100
+        for name, worse in {"stand-ins for nouns": "It is that of the grid. ", "long sentences": "so " * 40 + ". ", "figures": "It takes 12 ms. "}.items():
+            self.assertEqual(counts_of([plain])[name], 0)
+            self.assertGreater(counts_of([plain + worse])[name], 0)
+        self.assertEqual(counts_of([plain + "\n```c\nthe one 12\n```\n| 12 | those of |\n`12`"])["figures"], 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
