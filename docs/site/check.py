@@ -124,11 +124,24 @@ def fault_of_link(path, link, files, pages):
         yield f"{path}: {link}: {target} has no such anchor"
 
 
+# What people type, and the page that should come first: the words are in its title or its first lines.
+SEARCHED = {
+    "faq": "docs/faq.html",
+    "tutorial": "docs/get-started.html",
+    "self-collision": "docs/filters.html",
+    "how deep": "docs/depth.html",
+    "gpu": "docs/faq.html",
+    "best size": "docs/cell-size.html",
+}
+
+
 def faults_of_search(folder):
-    found = {
-        entry["location"].rpartition("#")[2]
-        for entry in json.loads(text_of(folder, "search/search_index.json"))["docs"]
-    }
+    entries = json.loads(text_of(folder, "search/search_index.json"))["docs"]
+    found = {entry["location"].rpartition("#")[2] for entry in entries}
+    for words, page in SEARCHED.items():
+        texts = [entry["title"] + " " + entry["text"] for entry in entries if entry["location"].partition("#")[0] == page]
+        if not any(words in text.lower() for text in texts):
+            yield f"search: {page} does not contain {words!r}"
     with open(os.path.join(ROOT, "bindings", "api.json"), encoding="utf-8") as file:
         api = json.load(file)
     for parsed in api["headers"]:

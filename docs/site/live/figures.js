@@ -178,7 +178,7 @@ function cellsFigure(place) {
                 one.found.length} points.`
         ),
         ` All ${triangles.length} together: ${step.visits} visits, ${step.tests} points; work ${Math.round(work)}, ${
-            perCent(work / best.total - 1)} beside the best. ${where}`,
+            perCent(work / best.total - 1)} over the best. ${where}`,
     );
     chart.clear();
     for (const kind of ["visits", "tests", "total"])
@@ -195,7 +195,7 @@ function cellsFigure(place) {
   }
 
   const size =
-      slider("Cell size", Math.log2(0.25), 3, 0.01, Math.log2(cell), (v) => `${rounded(2 ** v)} mean edges`, (v) => {
+      slider("Cell size", Math.log2(0.25), 3, 0.01, Math.log2(cell), (v) => inEdges(2 ** v), (v) => {
         cell = 2 ** v;
         draw();
       });
@@ -209,6 +209,10 @@ function cellsFigure(place) {
                                   ["vox-total", "together"]
                                 ])));
   draw();
+}
+
+function inEdges(size) {
+  return `${rounded(size)} mean ${rounded(size) === "1" ? "edge" : "edges"}`;
 }
 
 function legend(entries) {
@@ -275,13 +279,13 @@ function curveFigure(place) {
     said.replaceChildren(
         element(
             "strong", {},
-            `At ${rounded(state.cell)} mean edges z = ${rounded(here.total)}, ${
+            `At ${inEdges(state.cell)} a tetrahedron costs ${rounded(here.total)} visits of a cell, ${
                 perCent(here.total / least - 1)} over the least.`
         ),
-        ` A tetrahedron covers v_o = ${rounded(model.cellsCovered(now, state.cell * now.size))} cells, with p_v = ${
+        ` It covers ${rounded(model.cellsCovered(now, state.cell * now.size))} cells, with ${
             rounded(model.verticesPerCell(now, state.cell * now.size))} vertices in each. ` +
             `Visits ${rounded(here.visits)}, tests ${rounded(here.tests)}. ` +
-            `The least, ${rounded(least)}, is at ${rounded(edges(best))} mean edges (cell size ${
+            `The least, ${rounded(least)}, is at ${inEdges(edges(best))} (cell size ${
                 rounded(best, 4)}), the zone of 5 % from ${rounded(edges(zone.min))} to ${rounded(edges(zone.max))}` +
             `${inside ? ": you are in it." : "."}`,
     );
@@ -308,7 +312,7 @@ function curveFigure(place) {
     ));
   }
 
-  const cell = slider("Cell size", -2, 3, 0.01, 0, (v) => `${rounded(2 ** v)} mean edges`, (v) => {
+  const cell = slider("Cell size", -2, 3, 0.01, 0, (v) => inEdges(2 ** v), (v) => {
     state.cell = 2 ** v;
     draw();
   });
@@ -378,8 +382,8 @@ function lossFigure(place) {
     const mean = losses.reduce((sum, loss) => sum + loss, 0) / losses.length;
     said.replaceChildren(element(
         "strong", {},
-        `At ${rounded(edges)} mean edges a step takes ${
-            perCent(mean)} on average, beside the best cell size of each body.`
+        `At ${inEdges(edges)} a step takes ${
+            perCent(mean)} on average over the best cell size of each body.`
     ));
     table.replaceChildren(element("tbody", {}, ...models.map((body, i) => {
       const bar = element("span", {class: "vox-bar"});
@@ -392,7 +396,7 @@ function lossFigure(place) {
   }
 
   const cell =
-      slider("Cell size", Math.log2(0.5), 2, 0.01, 0, (v) => `${rounded(2 ** v)} mean edges`, (v) => draw(2 ** v));
+      slider("Cell size", Math.log2(0.5), 2, 0.01, 0, (v) => inEdges(2 ** v), (v) => draw(2 ** v));
   place.replaceChildren(element("div", {class: "vox-figure"}, cell.row, said, table));
   draw(1);
 }
