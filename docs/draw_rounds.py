@@ -37,6 +37,7 @@ def drawn():
     parts = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" width="{WIDTH}" height="{height}" '
              'font-family="Helvetica, Arial, sans-serif" font-size="14">',
              "<title>A step of vox_dist, round by round</title>",
+             "<style>@media (prefers-color-scheme:dark){svg{filter:invert(.92)hue-rotate(180deg)}}</style>",
              f'<rect width="{WIDTH}" height="{height}" fill="#fff"/>']
     for rank, name in RANKS.items():
         x = x_of(rank)

@@ -23,6 +23,7 @@ const dots = (wanted, radius) => points.filter((_, i) => looked.has(i) === wante
                                      .join("");
 
 const text = `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${height}" width="740" height="424">
+<style>@media (prefers-color-scheme:dark){svg{filter:invert(.92)hue-rotate(180deg)}}</style>
 <rect width="${width}" height="${height}" fill="#fff"/>
 <rect x="${short(one.low[0] * size)}" y="${short(one.low[1] * size)}" width="${
     short(
