@@ -196,7 +196,7 @@ void write_surface(const Checked& checked, const std::string& path) {
             if (found != of_edge.end()) of_triangle[t] += found->second;
         }
     const vox_io_mesh_view arrays{checked.surface.positions.data(), of_vertex.size(), nullptr, 0,
-                                  triangles.front().data(),         triangles.size()};
+                                  triangles.front().data(),         triangles.size(), nullptr, nullptr};
     vox_io_mesh* made = nullptr;
     check(vox_io_mesh_create(&arrays, &made));
     const Mesh mesh(made);
