@@ -66,7 +66,7 @@ class OddFiles(Files):
                 done = run(*arguments, *json, warnings=True)
                 with self.subTest(arguments=arguments, json=json):
                     self.assertTrue(done.stderr.startswith(expected), done.stderr)
-        for quiet in ["collide", self.other, "--self"], ["info", self.mixed], ["tetrahedralize", self.cube, "-o", out]:
+        for quiet in ["collide", self.other, "--self"], ["info", self.mixed], ["tetrahedralize", self.cube, "-o", out, "--cell", ".3"]:
             self.assertEqual(run(*quiet, warnings=True).stderr, b"")
         surface = self.write("open.obj", OPEN)
         done = run("tetrahedralize", surface, "-o", out, "--kind", "cubes", warnings=True)
@@ -79,10 +79,10 @@ class OddFiles(Files):
         self.assertEqual(run_json("suggest", self.mixed, self.other, "--model", "fast")["meshes"][0]["report"], report)
         self.assertEqual(run_json("suggest", self.mixed, "--points")["meshes"][0]["report"], report)
         self.assertEqual(run_json("check", self.mixed)["meshes"][0]["report"], report)
-        filled = run_json("tetrahedralize", self.cube, "-o", self.path("out.msh"))
+        filled = run_json("tetrahedralize", self.cube, "-o", self.path("out.msh"), "--cell", .3)
         self.assertEqual((filled["report"]["surface_triangles"], filled["report"]["warnings"]), (12, []))
         # Of a surface that is filled, what was in the file.
-        filled = run_json("collide", self.cube, "--self", "--fill")["meshes"][0]
+        filled = run_json("collide", self.cube, "--self", "--fill", "--fill-cell", .3)["meshes"][0]
         self.assertEqual((filled["report"]["tets"], filled["report"]["triangles"]), (0, 12))
         self.assertGreater(filled["tets"], 0)
 
@@ -126,7 +126,7 @@ class OddFiles(Files):
             file.write(MIXED)
         for arguments in (["info", path], ["check", path], ["collide", path, "--self"], ["sweep", path, "--count", "5", "--rounds",
                           "1", "--frames", "1", "--share", ".5"], ["info", "--progress", path], ["info", path + "?"],
-                          ["tetrahedralize", self.cube, "-o", path.replace("msh", "vtu")]):
+                          ["tetrahedralize", self.cube, "-o", path.replace("msh", "vtu"), "--cell", ".3"]):
             done = run(*arguments, warnings=True)
             for text in done.stdout, done.stderr:
                 for c in b"\x1b\x07\x7f\xc2\x9b":
