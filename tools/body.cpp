@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <sstream>
 #include <utility>
 
 namespace tool {
@@ -34,7 +35,7 @@ void place(Body& body, const Placement& placement) {
 
 } // namespace
 
-Mesh load_mesh(const std::string& path, vox_io_report* report) {
+Loaded load_mesh(const std::string& path, const Reading& reading) {
     Progress progress;
     progress.begin_reading(path);
     vox_io_load_desc desc = vox_default_io_load_desc();
@@ -43,32 +44,54 @@ Mesh load_mesh(const std::string& path, vox_io_report* report) {
         return 0;
     };
     desc.progress_user = &progress;
-    vox_io_mesh* loaded = nullptr;
-    const vox_result result = vox_io_load(path.c_str(), &desc, &loaded);
-    if (result == VOX_ERROR_UNSUPPORTED) return load_by_assimp(path, vox_last_error(), report);
-    check(result);
-    Mesh mesh(loaded);
-    if (report) check(vox_io_mesh_get_report(mesh.get(), report));
-    return mesh;
+    if (reading.keep_unused) desc.flags |= VOX_IO_LOAD_KEEP_UNUSED;
+    Loaded loaded;
+    loaded.report.struct_size = sizeof loaded.report;
+    vox_io_mesh* read = nullptr;
+    const vox_result result = vox_io_load(path.c_str(), &desc, &read);
+    if (result == VOX_ERROR_UNSUPPORTED) {
+        loaded.mesh = load_by_assimp(path, vox_last_error(), loaded.report);
+    } else {
+        check(result);
+        loaded.mesh.reset(read);
+        check(vox_io_mesh_get_report(read, &loaded.report));
+    }
+    std::istringstream lines(vox_io_mesh_get_warnings(loaded.mesh.get()));
+    for (std::string line; std::getline(lines, line);) loaded.warnings.push_back(line);
+    return loaded;
+}
+
+void say_warnings(const std::string& path, const std::vector<std::string>& warnings) {
+    std::string words;
+    for (const std::string& warning : warnings) words += (words.empty() ? "" : "; ") + warning;
+    if (words.empty()) return;
+    std::fflush(stdout);
+    std::fprintf(stderr, "vox: warning: %s: %s\n", shown(path).c_str(), shown(words).c_str());
 }
 
 Body own_body(const std::string& name, vox_io_mesh* mesh) {
     Body body;
     body.name = name;
     body.mesh.reset(mesh);
+    body.report.struct_size = sizeof body.report;
+    check(vox_io_mesh_get_report(mesh, &body.report));
     check(vox_io_mesh_get_arrays(mesh, &body.view));
     place(body, {});
     return body;
 }
 
-Body load_body(const std::string& path, const Placement& placement, const Fill& fill) {
+Body load_body(const std::string& path, const Placement& placement, const Reading& reading) {
+    Loaded loaded = load_mesh(path, reading);
+    say_warnings(path, loaded.warnings);
     Body body;
     body.name = path;
-    body.mesh = load_mesh(path);
+    body.mesh = std::move(loaded.mesh);
+    body.report = loaded.report;
+    body.warnings = std::move(loaded.warnings);
     check(vox_io_mesh_get_arrays(body.mesh.get(), &body.view));
-    if (fill.surfaces && body.view.tet_count == 0) {
+    if (reading.fill_surfaces && body.view.tet_count == 0) {
         vox_io_tetrahedralize_desc desc = vox_default_io_tetrahedralize_desc();
-        desc.cell = fill.cell;
+        desc.cell = reading.cell;
         vox_io_mesh* filled = nullptr;
         const vox_result result = vox_io_tetrahedralize(body.mesh.get(), &desc, &filled);
         if (result != VOX_OK) check(vox_fail(result, (path + ": " + vox_last_error()).c_str()));

@@ -20,9 +20,11 @@ using Mesh = std::unique_ptr<vox_io_mesh, MeshDeleter>;
 struct Body {
     std::string name; // the path of the file, or the name of a body made by the tool
     Mesh mesh;
-    vox_io_mesh_view view{};      // arrays of `mesh`
-    std::vector<float> positions; // 3 * view.vertex_count
-    std::vector<double> exact;    // if not empty, the positions before rounding, which are used instead
+    vox_io_report report{};            // of the file
+    std::vector<std::string> warnings; // of the file
+    vox_io_mesh_view view{};           // arrays of `mesh`
+    std::vector<float> positions;      // 3 * view.vertex_count
+    std::vector<double> exact;         // if not empty, the positions before rounding, which are used instead
 };
 
 // The placement of a body. Each coordinate is read as double, scaled, then offset, and rounded once to float
@@ -33,19 +35,29 @@ struct Placement {
     bool keep_doubles = false;
 };
 
-// How a surface is treated. Either only its vertices take part, or it is filled with tetrahedra (lattice
-// cells of edge `cell`; 0: the library's default).
-struct Fill {
-    bool surfaces = false;
+// How a file is read. Of a surface, either only the vertices take part, or it is filled with tetrahedra
+// (lattice cells of edge `cell`; 0: the library's default).
+struct Reading {
+    bool fill_surfaces = false;
     double cell = 0;
+    bool keep_unused = false; // vertices that belong to no tetrahedron
 };
 
-// Reads a mesh file, and its report unless that is null; report->struct_size must be set. Throws Failure with
-// the reader's error text.
-Mesh load_mesh(const std::string& path, vox_io_report* report = nullptr);
+// What load_mesh finds.
+struct Loaded {
+    Mesh mesh;
+    vox_io_report report{};
+    std::vector<std::string> warnings;
+};
 
-// Throws Failure with the reader's error text, or if a placed coordinate is beyond the range of float.
-Body load_body(const std::string& path, const Placement& placement = {}, const Fill& fill = {});
+// Reads a mesh file. Throws Failure with the reader's error text.
+Loaded load_mesh(const std::string& path, const Reading& reading = {});
+// Says the warnings in a line on standard error, if there are any.
+void say_warnings(const std::string& path, const std::vector<std::string>& warnings);
+
+// Reads a file and says its warnings. Throws Failure with the reader's error text, or if a placed coordinate
+// is beyond the range of float.
+Body load_body(const std::string& path, const Placement& placement = {}, const Reading& reading = {});
 // Makes a body of a mesh that was not read from a file, and takes ownership of the mesh.
 Body own_body(const std::string& name, vox_io_mesh* mesh);
 

@@ -99,10 +99,24 @@ void put(int pipe, const void* data, std::size_t size) {
     _exit(0);
 }
 
+// Whether the library has a reader of its own for files of that name, which knows best why it refused one.
+bool has_own_reader(const std::string& path) {
+    const std::size_t dot = path.find_last_of("./\\");
+    if (dot == std::string::npos || path[dot] != '.') return false;
+    std::string extension = path.substr(dot + 1);
+    for (char& c : extension)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    for (const char* const own : {"msh", "node", "ele", "mesh", "veg", "vtk", "vtu", "vtp", "inp", "obj",
+                                  "ply", "stl", "off", "gltf", "glb"})
+        if (extension == own) return true;
+    return false;
+}
+
 // The reading end. It trusts nothing in the pipe, as the file may have taken over the process.
 class Child {
 public:
-    Child(const std::string& path, std::string refused) : refused_(std::move(refused)) {
+    Child(const std::string& path, std::string refused)
+        : refused_(std::move(refused)), own_(has_own_reader(path)) {
         std::array<int, 2> ends{};
         if (pipe(ends.data()) != 0) fail(std::strerror(errno));
         child_ = fork();
@@ -138,7 +152,7 @@ public:
     }
 
     [[noreturn]] void fail(const std::string& words) const {
-        throw Failure(refused_ + "; assimp, in a process of its own: " + words);
+        throw Failure(own_ ? refused_ : refused_ + "; assimp, in a process of its own: " + words);
     }
     [[noreturn]] void give_up() const { throw Failure(refused_); }
 
@@ -162,6 +176,7 @@ private:
     }
 
     std::string refused_;
+    bool own_;
     pid_t child_ = -1;
     int pipe_ = -1;
     std::chrono::steady_clock::time_point deadline_ =
@@ -170,7 +185,7 @@ private:
 
 } // namespace
 
-Mesh load_by_assimp(const std::string& path, const std::string& refused, vox_io_report* report) {
+Mesh load_by_assimp(const std::string& path, const std::string& refused, vox_io_report& report) {
     Child child(path, refused);
     Answer answer{};
     child.get(&answer, sizeof answer);
@@ -187,11 +202,11 @@ Mesh load_by_assimp(const std::string& path, const std::string& refused, vox_io_
     std::vector<std::uint32_t> triangles(3 * answer.triangles);
     child.get(positions.data(), 24 * answer.vertices);
     child.get(triangles.data(), 12 * answer.triangles);
-    const vox_io_mesh_view arrays{positions.data(), answer.vertices, nullptr, 0,
-                                  triangles.data(), answer.triangles};
+    const vox_io_mesh_view arrays{positions.data(), answer.vertices,  nullptr, 0,
+                                  triangles.data(), answer.triangles, nullptr, nullptr};
     vox_io_mesh* mesh = nullptr;
     check(vox_io_mesh_create(&arrays, &mesh));
-    if (report) *report = answer.report;
+    report = answer.report;
     return Mesh(mesh);
 }
 
@@ -201,7 +216,7 @@ Mesh load_by_assimp(const std::string& path, const std::string& refused, vox_io_
 
 namespace tool {
 
-Mesh load_by_assimp(const std::string&, const std::string& refused, vox_io_report*) {
+Mesh load_by_assimp(const std::string&, const std::string& refused, vox_io_report&) {
     throw Failure(refused);
 }
 

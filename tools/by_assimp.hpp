@@ -6,8 +6,8 @@
 
 namespace tool {
 
-// Fills `report`, too, unless it is null; its struct_size must be set. Throws Failure with `refused`, which
-// says why the library did not read the file, followed by what the reader or the end of its process says.
-Mesh load_by_assimp(const std::string& path, const std::string& refused, vox_io_report* report);
+// Fills `report`, too. Throws Failure with `refused`, which says why the library did not read the file. For a
+// format that the library does not know, what assimp or the end of its process says follows.
+Mesh load_by_assimp(const std::string& path, const std::string& refused, vox_io_report& report);
 
 } // namespace tool

@@ -2,8 +2,10 @@
 #include "body.hpp"
 #include "commands.hpp"
 #include "failure.hpp"
+#include "options.hpp"
 #include "output_file.hpp"
 #include "report.hpp"
+#include "terminal.hpp"
 
 #include <vox/vox_surface.h>
 
@@ -22,6 +24,7 @@ struct CheckOptions {
     bool floats = false;
     std::uint32_t threads = 1;
     std::uint64_t limit = 10;
+    Reading reading;
     std::string out;
     bool json = false;
 };
@@ -98,6 +101,7 @@ struct SurfaceDeleter {
 
 struct Checked {
     std::string file;
+    Json report;
     CheckedSurface surface;
     std::vector<std::uint32_t> edges; // two vertices each
     std::vector<vox_crossing> crossings;
@@ -112,7 +116,8 @@ struct Checked {
 Checked check_file(const std::string& file, const CheckOptions& options) {
     Checked checked;
     checked.file = file;
-    const Body body = load_body(file, {.keep_doubles = !options.floats});
+    const Body body = load_body(file, {.keep_doubles = !options.floats}, options.reading);
+    checked.report = report_json(body.report, body.warnings);
     checked.surface = surface_of(body);
     if (checked.surface.triangles.empty())
         throw Failure(file + " has no triangles and no tetrahedra to check");
@@ -138,7 +143,7 @@ Checked check_file(const std::string& file, const CheckOptions& options) {
 }
 
 void print_check(const Checked& checked, std::uint64_t limit) {
-    std::printf("%s: %llu triangles, %llu edges: ", checked.file.c_str(),
+    std::printf("%s: %llu triangles, %llu edges: ", shown(checked.file).c_str(),
                 llu(checked.surface.triangles.size()), llu(checked.edges.size() / 2));
     if (checked.crossings.empty()) {
         std::printf("free of self-intersection\n");
@@ -174,7 +179,8 @@ Json check_json(const Checked& checked) {
             {"through", checked.count(VOX_CROSSING_THROUGH)},
             {"touching", checked.count(VOX_CROSSING_TOUCHING)},
             {"coplanar", checked.count(VOX_CROSSING_COPLANAR)},
-            {"crossings", list}};
+            {"crossings", list},
+            {"report", checked.report}};
 }
 
 // Writes the surface, with the number of crossings of each vertex (by its edges) and each triangle.
@@ -196,7 +202,7 @@ void write_surface(const Checked& checked, const std::string& path) {
             if (found != of_edge.end()) of_triangle[t] += found->second;
         }
     const vox_io_mesh_view arrays{checked.surface.positions.data(), of_vertex.size(), nullptr, 0,
-                                  triangles.front().data(),         triangles.size()};
+                                  triangles.front().data(),         triangles.size(), nullptr, nullptr};
     vox_io_mesh* made = nullptr;
     check(vox_io_mesh_create(&arrays, &made));
     const Mesh mesh(made);
@@ -243,6 +249,7 @@ void add_check(CommandLine& line) {
     command
         .option("-o,--output", options->out, "Write the surface and its crossings to this file, .vtu or .msh")
         .shown_as("FILE");
+    add_keep_unused(command, options->reading);
     command.flag("--json", options->json, "Print one JSON object");
     command.runs([options] { run_check(*options); });
 }

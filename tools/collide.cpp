@@ -8,6 +8,7 @@
 #include "results_file.hpp"
 #include "snapshot_file.hpp"
 #include "stepping.hpp"
+#include "terminal.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -19,7 +20,7 @@ namespace {
 struct CollideOptions {
     std::string a, b;
     bool self = false;
-    Fill fill;
+    Reading reading;
     std::vector<double> offset = {0, 0, 0};
     double scale = 1;
     bool keep_doubles = false;
@@ -64,8 +65,9 @@ void print_collide(const CollideOptions& options, const vox_grid* grid, const st
                    const std::vector<vox_body>& ids, const Counters& times) {
     const auto ms = [&](const char* name) { return static_cast<double>(value_of(times, name)) * 1e-6; };
     for (std::size_t i = 0; i < bodies.size(); ++i)
-        std::printf("%c  %s: %llu vertices, %llu tetrahedra%s\n", i == 0 ? 'A' : 'B', bodies[i].name.c_str(),
-                    llu(bodies[i].view.vertex_count), llu(bodies[i].view.tet_count),
+        std::printf("%c  %s: %llu vertices, %llu tetrahedra%s\n", i == 0 ? 'A' : 'B',
+                    shown(bodies[i].name).c_str(), llu(bodies[i].view.vertex_count),
+                    llu(bodies[i].view.tet_count),
                     bodies[i].view.tet_count > 0
                         ? ""
                         : " (a surface: its vertices collide, but it has no inside; --fill makes one)");
@@ -122,16 +124,17 @@ void run_collide(const CollideOptions& options) {
     for (const std::string& path : {options.csv, options.save})
         if (!path.empty()) check_output(path);
     std::vector<Body> bodies;
-    bodies.push_back(load_body(options.a, {.keep_doubles = options.keep_doubles}, options.fill));
+    bodies.push_back(load_body(options.a, {.keep_doubles = options.keep_doubles}, options.reading));
     if (!options.b.empty()) {
         const Placement placement{
             options.scale, {options.offset[0], options.offset[1], options.offset[2]}, options.keep_doubles};
-        bodies.push_back(load_body(options.b, placement, options.fill));
+        bodies.push_back(load_body(options.b, placement, options.reading));
     }
     require_inside(bodies);
     Body before;
     if (!options.moving.empty())
-        before = load_body(options.moving, {.keep_doubles = options.keep_doubles}, {});
+        before = load_body(options.moving, {.keep_doubles = options.keep_doubles},
+                           {.keep_unused = options.reading.keep_unused});
     std::vector<vox_body> ids;
     GridOptions settings = options.grid;
     vox_grid_desc desc = settings.grid_desc();
@@ -170,7 +173,7 @@ void add_collide(CommandLine& line) {
     command.option("A", options->a, "Mesh file").required();
     Option b = command.option("B", options->b, "Second mesh file");
     command.flag("--self", options->self, "Also find the contacts of a mesh with itself");
-    add_fill(command, options->fill);
+    add_reading(command, options->reading);
     command.option("--scale", options->scale, "Scale B by this factor").not_zero().needs(b);
     command.option("--offset", options->offset, "Move B by X Y Z after scaling it")
         .count(3)

@@ -17,7 +17,7 @@ namespace {
 
 int wrong_usage(const CLI::App& app, const char* words) {
     const auto chosen = app.get_subcommands();
-    std::fprintf(stderr, "vox: %s\nRun 'vox %s--help' for the usage.\n", words,
+    std::fprintf(stderr, "vox: %s\nRun 'vox %s--help' for the usage.\n", shown(words).c_str(),
                  chosen.empty() ? "" : (chosen.front()->get_name() + " ").c_str());
     return 2;
 }
@@ -75,9 +75,10 @@ std::vector<std::string> option_names(const CLI::App& app) {
     return names;
 }
 
-// `vox help` and `vox help COMMAND`, equivalent to --help.
+// `vox`, `vox help` and `vox help COMMAND`, equivalent to --help.
 void replace_help(std::vector<std::string>& arguments) {
-    if (arguments.empty() || arguments.back() != "help") return;
+    if (arguments.empty()) arguments.push_back("--help");
+    if (arguments.back() != "help") return;
     arguments.pop_back();
     arguments.insert(arguments.empty() ? arguments.end() : arguments.end() - 1, "--help");
 }

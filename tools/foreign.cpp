@@ -221,6 +221,7 @@ void suggest_foreign(const ForeignOptions& options, const std::vector<Body>& bod
     if (!svg.empty()) write_file(svg, curve_svg(found, words));
     if (!json) return tune ? print_tuning(found) : print_suggestion(found, stored);
     Json all = Json::object();
+    if (!bodies.empty()) all.add("meshes", body_list(bodies));
     add_suggestion(all, found);
     if (!bodies.empty()) all.add("primitives", {{"type", stored.word}, {"count", stored.desc.count}});
     print(all);

@@ -2,12 +2,15 @@
 #include "body.hpp"
 #include "commands.hpp"
 #include "failure.hpp"
+#include "options.hpp"
 #include "report.hpp"
 #include "shape.hpp"
+#include "terminal.hpp"
 
 #include <cmath>
 #include <cstdio>
-#include <sstream>
+#include <optional>
+#include <set>
 
 namespace tool {
 
@@ -15,6 +18,7 @@ namespace {
 
 struct InfoOptions {
     std::vector<std::string> files;
+    Reading reading;
     bool json = false;
 };
 
@@ -23,22 +27,28 @@ struct Info {
     Shape shape;
     vox_io_report report{};
     vox_io_quality quality{};
+    std::size_t regions = 0;
     std::vector<std::string> warnings;
 };
 
-Info read_info(const std::string& file) {
+// The regions of the tetrahedra, each once.
+std::size_t count_regions(const vox_io_mesh_view& view) {
+    if (!view.tet_regions) return 0;
+    return std::set<std::int32_t>(view.tet_regions, view.tet_regions + view.tet_count).size();
+}
+
+Info read_info(const std::string& file, const Reading& reading) {
+    Loaded loaded = load_mesh(file, reading);
     Info info;
     info.file = file;
-    info.report.struct_size = sizeof info.report;
-    const Mesh mesh = load_mesh(file, &info.report);
+    info.report = loaded.report;
+    info.warnings = std::move(loaded.warnings);
     vox_io_mesh_view view{};
-    check(vox_io_mesh_get_arrays(mesh.get(), &view));
+    check(vox_io_mesh_get_arrays(loaded.mesh.get(), &view));
     info.shape = measure_shape(view);
+    info.regions = count_regions(view);
     info.quality.struct_size = sizeof info.quality;
-    check(vox_io_mesh_measure(mesh.get(), nullptr, &info.quality));
-    std::istringstream lines(vox_io_mesh_get_warnings(mesh.get()));
-    for (std::string line; std::getline(lines, line);)
-        if (!line.empty()) info.warnings.push_back(line);
+    check(vox_io_mesh_measure(loaded.mesh.get(), nullptr, &info.quality));
     return info;
 }
 
@@ -46,35 +56,16 @@ Info read_info(const std::string& file) {
 Json angle(const Info& info, double degrees) { return info.report.tets > 0 ? Json(degrees) : Json(); }
 
 Json info_json(const Info& info) {
-    const vox_io_report& report = info.report;
-    return {{"file", info.file},
-            {"format", vox_io_format_string(report.format)},
-            {"vertices", report.vertices},
-            {"tets", report.tets},
-            {"surface_triangles", report.boundary_facets},
-            {"mean_edge", info.shape.mean_edge},
-            {"mean_longest_edge", info.shape.mean_longest_edge},
-            {"mean_facet_area", info.shape.mean_facet_area},
-            {"mean_volume", info.shape.mean_volume},
-            {"volume", report.volume},
-            {"min_dihedral", angle(info, info.quality.min_dihedral)},
-            {"max_dihedral", angle(info, info.quality.max_dihedral)},
-            {"inverted", report.inverted_tets},
-            {"degenerate", report.degenerate_tets},
-            {"duplicate_vertices", report.duplicate_vertices},
-            {"nearly_flat", report.nearly_flat_tets},
-            {"duplicate_tets", report.duplicate_tets},
-            {"degenerate_triangles", report.degenerate_triangles},
-            {"unused_vertices", report.unused_vertices},
-            {"non_manifold_facets", report.non_manifold_facets},
-            {"open_edges", report.open_edges},
-            {"misoriented_edges", report.misoriented_edges},
-            {"components", report.components},
-            {"skipped_elements", report.skipped_elements},
-            {"second_order_tets", report.second_order_tets},
-            {"unit_in_metres", report.unit_in_metres > 0 ? Json(report.unit_in_metres) : Json()},
-            {"bounds", bounds(report.bounds_min, report.bounds_max)},
-            {"warnings", Json::array_of(info.warnings)}};
+    Json json = {{"file", info.file},
+                 {"mean_edge", info.shape.mean_edge},
+                 {"mean_longest_edge", info.shape.mean_longest_edge},
+                 {"mean_facet_area", info.shape.mean_facet_area},
+                 {"mean_volume", info.shape.mean_volume},
+                 {"min_dihedral", angle(info, info.quality.min_dihedral)},
+                 {"max_dihedral", angle(info, info.quality.max_dihedral)},
+                 {"regions", info.regions}};
+    add_report(json, info.report, info.warnings);
+    return json;
 }
 
 void print_count(const char* name, std::uint64_t value) { std::printf("  %-18s %llu\n", name, llu(value)); }
@@ -93,10 +84,11 @@ void print_angles(const Info& info) {
 
 void print_info(const Info& info) {
     const vox_io_report& report = info.report;
-    std::printf("%s\n", info.file.c_str());
+    std::printf("%s\n", shown(info.file).c_str());
     std::printf("  %-18s %s\n", "format", vox_io_format_string(report.format));
     print_count("vertices", report.vertices);
     print_count("tetrahedra", report.tets);
+    if (info.regions > 0) print_count("regions", info.regions);
     print_count("surface triangles", report.boundary_facets);
     print_count("components", report.components);
     print_number("volume", report.volume);
@@ -112,13 +104,13 @@ void print_info(const Info& info) {
     const double *min = report.bounds_min, *max = report.bounds_max;
     std::printf("  %-18s %.9g %.9g %.9g to %.9g %.9g %.9g\n", "bounds", min[0], min[1], min[2], max[0],
                 max[1], max[2]);
-    for (const std::string& warning : info.warnings) std::printf("  warning: %s\n", warning.c_str());
+    for (const std::string& warning : info.warnings) std::printf("  warning: %s\n", shown(warning).c_str());
 }
 
 void run_info(const InfoOptions& options) {
     Json meshes = Json::array();
     for (const std::string& file : options.files) {
-        const Info info = read_info(file);
+        const Info info = read_info(file, options.reading);
         if (options.json)
             meshes.push_back(info_json(info));
         else
@@ -133,6 +125,7 @@ void add_info(CommandLine& line) {
     const auto options = std::make_shared<InfoOptions>();
     Command command = line.add("info", "Show what is in a mesh file");
     command.option("MESH", options->files, "Mesh files").required();
+    add_keep_unused(command, options->reading);
     command.flag("--json", options->json, "Print one JSON object");
     command.runs([options] { run_info(*options); });
 }

@@ -20,7 +20,7 @@ namespace {
 
 int fail(const char* words) {
     std::fflush(stdout); // keeps earlier output before the error text
-    std::fprintf(stderr, "vox: %s\n", words);
+    std::fprintf(stderr, "vox: %s\n", tool::shown(words).c_str());
     return 1;
 }
 

@@ -56,11 +56,17 @@ inline void add_cells(Command& command, GridOptions& grid) {
     command.choice("--hash", grid.hash, hashes, "Hash of a cell, for hashed storage");
 }
 
+inline void add_keep_unused(Command& command, Reading& reading) {
+    command.flag("--keep-unused", reading.keep_unused,
+                 "Keep vertices that belong to no tetrahedron; they collide like others");
+}
+
 // Adds the options of commands that need tetrahedra but may get surfaces.
-inline void add_fill(Command& command, Fill& fill) {
-    const Option flag = command.flag("--fill", fill.surfaces, "Fill surfaces with tetrahedra first");
+inline void add_reading(Command& command, Reading& reading) {
+    add_keep_unused(command, reading);
+    const Option flag = command.flag("--fill", reading.fill_surfaces, "Fill surfaces with tetrahedra first");
     command
-        .option("--fill-cell", fill.cell,
+        .option("--fill-cell", reading.cell,
                 "Edge of a lattice cell for --fill; 0: a fiftieth of the longest side")
         .not_negative()
         .needs(flag);

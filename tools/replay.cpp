@@ -40,7 +40,7 @@ void print_replay(const ReplayOptions& options, const std::string& file, std::ui
                   const vox_grid* grid) {
     const Counters counters = counters_of(grid);
     const auto count = [&](const char* name) { return llu(value_of(counters, name)); };
-    std::printf("%s: %llu meshes, %llu vertices, %llu tetrahedra, saved at epoch %llu\n", file.c_str(),
+    std::printf("%s: %llu meshes, %llu vertices, %llu tetrahedra, saved at epoch %llu\n", shown(file).c_str(),
                 count("bodies"), count("vertices"), count("tets"), llu(epoch));
     std::printf("%llu %s, hash %s, cell size %.9g, last of %u %s in %.3f ms\n", count("contacts"),
                 count("contacts") == 1 ? "contact" : "contacts", hexadecimal(hash_of(grid)).c_str(),

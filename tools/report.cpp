@@ -120,6 +120,41 @@ Json curve(const vox_cell_size_result& result) {
     return list;
 }
 
+void add_report(Json& json, const vox_io_report& report, const std::vector<std::string>& warnings) {
+    json.add("format", vox_io_format_string(report.format));
+    const std::pair<const char*, std::uint64_t> counts[] = {
+        {"vertices", report.vertices},
+        {"tets", report.tets},
+        {"triangles", report.triangles},
+        {"surface_triangles", report.boundary_facets},
+        {"inverted", report.inverted_tets},
+        {"degenerate", report.degenerate_tets},
+        {"duplicate_vertices", report.duplicate_vertices},
+        {"nearly_flat", report.nearly_flat_tets},
+        {"duplicate_tets", report.duplicate_tets},
+        {"degenerate_triangles", report.degenerate_triangles},
+        {"unused_vertices", report.unused_vertices},
+        {"left_out_vertices", report.left_out_vertices},
+        {"left_out_triangles", report.left_out_triangles},
+        {"non_manifold_facets", report.non_manifold_facets},
+        {"open_edges", report.open_edges},
+        {"misoriented_edges", report.misoriented_edges},
+        {"components", report.components},
+        {"skipped_elements", report.skipped_elements},
+        {"second_order_tets", report.second_order_tets}};
+    for (const auto& [name, count] : counts) json.add(name, count);
+    json.add("volume", report.volume);
+    json.add("unit_in_metres", number(report.unit_in_metres));
+    json.add("bounds", bounds(report.bounds_min, report.bounds_max));
+    json.add("warnings", Json::array_of(warnings));
+}
+
+Json report_json(const vox_io_report& report, const std::vector<std::string>& warnings) {
+    Json json = Json::object();
+    add_report(json, report, warnings);
+    return json;
+}
+
 bool collides(const vox_cell_size_result& result) { return result.cost > 0; }
 
 void add_suggestion(Json& json, const vox_cell_size_result& result) {
@@ -225,8 +260,10 @@ void add_result(Json& json, const vox_grid* grid, const Counters& times) {
 Json body_list(const std::vector<Body>& bodies) {
     Json list = Json::array();
     for (const Body& body : bodies)
-        list.push_back(
-            {{"file", body.name}, {"vertices", body.view.vertex_count}, {"tets", body.view.tet_count}});
+        list.push_back({{"file", body.name},
+                        {"vertices", body.view.vertex_count},
+                        {"tets", body.view.tet_count},
+                        {"report", report_json(body.report, body.warnings)}});
     return list;
 }
 

@@ -45,7 +45,11 @@ const char* state_name(vox_depth_state state);
 // Adds the results of a step other than contacts: hash, profile, counters.
 void add_result(Json& json, const vox_grid* grid, const Counters& times);
 
-// A list of {file, vertices, tets}, one a body, in the order of the indices in contacts.
+// Adds what a file holds, what was left out of it, and its warnings.
+void add_report(Json& json, const vox_io_report& report, const std::vector<std::string>& warnings);
+Json report_json(const vox_io_report& report, const std::vector<std::string>& warnings);
+
+// A list of {file, vertices, tets, report}, one a body, in the order of the indices in contacts.
 Json body_list(const std::vector<Body>& bodies);
 
 // The index of `mesh` in `ids`, which must contain it.

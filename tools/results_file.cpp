@@ -100,8 +100,8 @@ void write_results(const std::string& path, std::span<const DrawnMesh> meshes, c
     const std::vector<vox_io_point_data> of_cells = {data("mesh", cells.mesh), data("tet", cells.number),
                                                      data("contacts", cells.contacts)};
 
-    const vox_io_mesh_view arrays{positions.data(), positions.size() / 3, tets.data(),
-                                  tets.size() / 4,  triangles.data(),     triangles.size() / 3};
+    const vox_io_mesh_view arrays{positions.data(), positions.size() / 3, tets.data(), tets.size() / 4,
+                                  triangles.data(), triangles.size() / 3, nullptr,     nullptr};
     vox_io_mesh* made = nullptr;
     check(vox_io_mesh_create(&arrays, &made));
     const Mesh mesh(made);

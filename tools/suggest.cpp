@@ -16,7 +16,7 @@ namespace tool {
 namespace {
 
 struct SuggestOptions {
-    Fill fill;
+    Reading reading;
     std::vector<std::string> files;
     vox_cell_size_desc desc = vox_default_cell_size_desc();
     std::string svg; // path of the picture to write; empty: none
@@ -67,7 +67,7 @@ void run_suggest(const SuggestOptions& options) {
     if (options.files.empty() && options.foreign.tune.empty()) throw WrongUsage("MESH is required");
     std::vector<Body> bodies;
     std::vector<vox_mesh_desc> meshes;
-    for (const std::string& file : options.files) bodies.push_back(load_body(file, {}, options.fill));
+    for (const std::string& file : options.files) bodies.push_back(load_body(file, {}, options.reading));
     const bool has_tets =
         std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.view.tet_count > 0; });
     if (!has_tets && options.desc.model == VOX_COST_MODEL_SURFACE)
@@ -95,6 +95,7 @@ void run_suggest(const SuggestOptions& options) {
     }
     if (!options.json) return print_suggest(found, desc.model, geometry, meshes.size());
     Json json = Json::object();
+    json.add("meshes", body_list(bodies));
     add_suggestion(json, found, desc.model, geometry);
     print(json);
 }
@@ -106,7 +107,7 @@ void add_suggest(CommandLine& line) {
     vox_cell_size_desc& desc = options->desc;
     Command command = line.add("suggest", "Find the best cell size for meshes and explain it");
     command.option("MESH", options->files, "Mesh files: tetrahedra, surfaces or points");
-    add_fill(command, options->fill);
+    add_reading(command, options->reading);
     command.choice("--model", desc.model, models, "Cost model to minimise");
     command.option("--p-nc", desc.p_nc, "Probability that a tetrahedron has no collision, between 0 and 1")
         .fraction();

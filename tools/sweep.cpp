@@ -32,7 +32,7 @@ namespace {
 struct SweepOptions {
     std::string a, b;
     std::uint64_t ball = 0; // tetrahedra of the balls that replace the files; 0: files
-    Fill fill;
+    Reading reading;
     ExperimentSettings experiment;
     GridOptions grid;
     double world = 0;
@@ -330,7 +330,7 @@ void print_sweep(const Sweep& sweep) {
     const Evaluation& found = sweep.found;
     const double mean_edge = sweep.geometry.mean_edge;
     std::printf("%s against %s, %llu tetrahedra, %.2f %% of them in contact (mean over %u frames).\n\n",
-                sweep.bodies.front().name.c_str(), sweep.bodies.back().name.c_str(),
+                shown(sweep.bodies.front().name).c_str(), shown(sweep.bodies.back().name).c_str(),
                 llu(sweep.experiment.tets()), 100 * sweep.experiment.mean_share(),
                 sweep.options.experiment.frames);
     std::printf("  %12s %8s %8s %11s\n", "cell size", "edges", "n", "time (ms)");
@@ -393,7 +393,7 @@ void run_sweep(const SweepOptions& options) {
     check_sweep_usage(options);
     std::vector<Body> bodies;
     for (const std::string& file : {options.a, options.b.empty() ? options.a : options.b})
-        bodies.push_back(options.ball > 0 ? make_ball(options.ball) : load_body(file, {}, options.fill));
+        bodies.push_back(options.ball > 0 ? make_ball(options.ball) : load_body(file, {}, options.reading));
     ExperimentSettings settings = options.experiment;
     GridOptions grid = options.grid;
     settings.grid = grid.grid_desc();
@@ -439,7 +439,7 @@ void add_sweep(CommandLine& line) {
         .option("--ball", options->ball, "Instead of files, use balls of radius 1 with about TETS tetrahedra")
         .shown_as("TETS")
         .range(1, VOX_MAX_TETS / 4);
-    add_fill(command, options->fill);
+    add_reading(command, options->reading);
     command.option("--axis", options->experiment.axis, "Direction X Y Z from A to B")
         .count(3)
         .shown_as("FLOAT")

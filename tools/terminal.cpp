@@ -107,10 +107,38 @@ void Progress::hide() {
 }
 
 void Progress::print(const std::string& where) {
-    std::fprintf(stderr, lines ? "vox: %s\n" : "\r\033[Kvox: %s", where.c_str());
+    std::fprintf(stderr, lines ? "vox: %s\n" : "\r\033[Kvox: %s", shown(where).c_str());
     std::fflush(stderr);
     shown_ = true;
     last_ = std::chrono::steady_clock::now();
+}
+
+std::string shown(const std::string& text) {
+    std::string result;
+    const auto byte = [&](std::size_t i) {
+        return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
+    };
+    const auto escape = [&](unsigned code) {
+        char escaped[8];
+        std::snprintf(escaped, sizeof escaped, "\\x%02x", code);
+        result += escaped;
+    };
+    for (std::size_t i = 0; i < text.size();) {
+        const unsigned c = byte(i);
+        std::size_t length = c < 0x80 ? 1 : c < 0xc2 ? 0 : c < 0xe0 ? 2 : c < 0xf0 ? 3 : c < 0xf5 ? 4 : 0;
+        for (std::size_t k = 1; k < length; ++k)
+            if ((byte(i + k) & 0xc0) != 0x80) length = 0; // cut off: no character
+        if (length == 0)
+            result += "\xef\xbf\xbd";
+        else if (c < 0x20 || c == 0x7f)
+            escape(c);
+        else if (c == 0xc2 && byte(i + 1) < 0xa0) // U+0080 to U+009F
+            escape(byte(i + 1));
+        else
+            result.append(text, i, length);
+        i += length > 0 ? length : 1;
+    }
+    return result;
 }
 
 bool locale_is_utf8() {

@@ -52,6 +52,10 @@ private:
     std::chrono::steady_clock::time_point begin_, last_;
 };
 
+// Text for a terminal, of which file names and files' contents are a part: with control characters as \x1b,
+// so that they do nothing there, and U+FFFD in the place of bytes that are not UTF-8.
+std::string shown(const std::string& text);
+
 // Whether the locale of the environment can print the block and line characters of Unicode.
 bool locale_is_utf8();
 

@@ -43,7 +43,7 @@ void write(const vox_io_mesh* mesh, const TetrahedralizeOptions& options) {
 }
 
 void print_tetrahedralize(const TetrahedralizeOptions& options, const vox_io_quality& quality) {
-    std::printf("%s: %llu tetrahedra, %llu vertices\n", options.out.c_str(), llu(quality.tets),
+    std::printf("%s: %llu tetrahedra, %llu vertices\n", shown(options.out).c_str(), llu(quality.tets),
                 llu(quality.vertices));
     std::printf("  %-20s %.9g to %.9g degrees\n", "dihedral angles", quality.min_dihedral,
                 quality.max_dihedral);
@@ -53,8 +53,10 @@ void print_tetrahedralize(const TetrahedralizeOptions& options, const vox_io_qua
 }
 
 void run_tetrahedralize(const TetrahedralizeOptions& options) {
-    check_output(options.out, {".msh", ".vtu"}); // filling may take minutes
-    const Mesh surface = load_mesh(options.surface);
+    check_output(options.out, {".msh", ".vtu"});                             // filling may take minutes
+    const Loaded loaded = load_mesh(options.surface, {.keep_unused = true}); // triangles beside tets
+    say_warnings(options.surface, loaded.warnings);
+    const Mesh& surface = loaded.mesh;
     const Mesh mesh = fill(surface.get(), options.desc);
     write(mesh.get(), options);
     auto quality = sized<vox_io_quality>();
@@ -70,7 +72,8 @@ void run_tetrahedralize(const TetrahedralizeOptions& options) {
            {"mesh_to_surface", quality.mesh_to_surface},
            {"surface_to_mesh", quality.surface_to_mesh},
            {"volume", quality.volume},
-           {"surface_volume", quality.surface_volume}});
+           {"surface_volume", quality.surface_volume},
+           {"report", report_json(loaded.report, loaded.warnings)}});
 }
 
 } // namespace

@@ -1,9 +1,10 @@
 /* vox_io: mesh files and ready-made bodies for vox. A separate library; the core does not need it.
  *
  * The conventions of vox.h hold here too: vox_result, vox_last_error(), struct_size, untouched
- * out-parameters on failure. Positions are double and numbered as in the file. The vertices of a
- * surface are merged if their positions are equal, and numbered in order of first use. The caller owns every mesh that
- * a function here creates and releases it with vox_io_mesh_destroy.
+ * out-parameters on failure. Positions are double and in the file's order. In a file with tets, vertices that belong
+ * to no tet are left out: geometry points, nodes on edges of ten-node tets, corners of elements that are skipped. The
+ * vertices of a surface are merged if their positions are equal, and numbered in order of first use. The caller owns
+ * every mesh that a function here creates and releases it with vox_io_mesh_destroy.
  *
  * CMake: find_package(vox COMPONENTS io), then link vox::io, which brings vox::vox with it. pkg-config: vox_io.
  *
@@ -42,11 +43,18 @@ typedef enum vox_io_format {
     VOX_IO_FORMAT_ASSIMP = 8
 } vox_io_format;
 
+/* Flags of a vox_io_load_desc. */
+typedef enum vox_io_load_flags {
+    /* Keep vertices that belong to no tet, and triangles that name one. A vertex then has the file's number. In a
+     * grid such vertices collide like all others. */
+    VOX_IO_LOAD_KEEP_UNUSED = 1
+} vox_io_load_flags;
+
 typedef struct vox_io_load_desc {
     uint32_t struct_size;
     vox_io_format format;
-    uint32_t mesh; /* which mesh of a scene file to take, from 1; 0: all, joined */
-    uint32_t reserved; /* 0 */
+    uint32_t mesh;  /* which mesh of a scene file to take, from 1; 0: all, joined */
+    uint32_t flags; /* vox_io_load_flags */
     /* Where the arrays of the mesh live until vox_io_mesh_destroy. Copied; null: the C++ runtime's heap. Other memory
      * that reading needs is taken from that heap and released at the end of the call. */
     VOX_OPTIONAL const vox_allocator* allocator;
@@ -96,6 +104,13 @@ typedef struct vox_io_mesh_view {
     uint64_t tet_count;
     const uint32_t* triangles; /* those of the file */
     uint64_t triangle_count;
+    /* A number for each tet, where the file has some that are not 0; else null. Physical groups of Gmsh (of several, the
+     * first), references of Medit, the last attribute of TetGen; of VTK the cell array "region", "gmsh:physical",
+     * "medit:ref", "material" or the like, else the first that has one whole number for each cell. */
+    VOX_OPTIONAL const int32_t* tet_regions;
+    /* For each vertex its number in the file, counted from 0 in the file's order, ascending; null if vertices were not
+     * left out. Values for vertex v belong to vertex file_vertices[v] of the file. */
+    VOX_OPTIONAL const uint32_t* file_vertices;
 } vox_io_mesh_view;
 
 /* The mesh's arrays. */
@@ -109,7 +124,7 @@ VOX_API vox_result vox_io_mesh_get_arrays(const vox_io_mesh* mesh, vox_io_mesh_v
  * Errors: INVALID_ARGUMENT (null, or a struct_size that does not reach to tet_count). */
 VOX_API vox_result vox_io_mesh_describe(const vox_io_mesh* mesh, vox_mesh_desc* desc);
 
-/* Makes a mesh from arrays (copied) on the C++ runtime's heap. Errors: INVALID_ARGUMENT, INVALID_MESH, NON_FINITE,
+/* Makes a mesh from arrays (copied) on the C++ runtime's heap. Nothing is left out. Errors: INVALID_ARGUMENT, INVALID_MESH, NON_FINITE,
  * LIMIT (more than VOX_MAX_VERTICES or VOX_MAX_TETS), OUT_OF_MEMORY. */
 VOX_API vox_result vox_io_mesh_create(const vox_io_mesh_view* arrays, vox_io_mesh** out_mesh);
 
@@ -141,6 +156,8 @@ typedef struct vox_io_report {
     double bounds_min[3];          /* bounding box of the vertices in use, or of all vertices if none is in use */
     double bounds_max[3];
     double unit_in_metres;         /* length of the file's unit; 0 if the file does not state it */
+    uint64_t left_out_vertices;    /* vertices of the file that belong to no tet and are not in the mesh */
+    uint64_t left_out_triangles;   /* triangles of the file that name one of them and are not in the mesh */
 } vox_io_report;
 
 /* Writes the fields that out_report->struct_size covers (set it first). */
@@ -262,7 +279,8 @@ static inline vox_io_write_desc vox_default_io_write_desc(void) {
     return desc;
 }
 
-/* Writes vertices, triangles and tets, in the mesh's order. desc null: defaults. An existing file at `path`
+/* Writes vertices, triangles and tets, in the mesh's order, and the tets' regions: as physical groups in .msh, as the
+ * cell array "region" in .vtu, unless cell_data has one of that name. desc null: defaults. An existing file at `path`
  * is replaced at the end, and only if everything was written.
  * Errors: FILE, INVALID_ARGUMENT (names the field), NON_FINITE, UNSUPPORTED (the extension), LIMIT (more
  * elements than .msh 2.2 can number), OUT_OF_MEMORY. */

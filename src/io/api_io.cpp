@@ -5,6 +5,7 @@
 #include "io/formats/file_bytes.hpp"
 #include "io/formats/readers.hpp"
 #include "io/mesh.hpp"
+#include "io/unused.hpp"
 
 #include <cstddef>
 
@@ -16,7 +17,8 @@ vox_io_load_desc checked(const vox_io_load_desc* in) {
     const vox_io_load_desc desc = read_struct(in, "vox_io_load_desc");
     check_enum(desc.format, VOX_IO_FORMAT_ASSIMP, "vox_io_load_desc.format");
     check_allocator(desc.allocator, "vox_io_load_desc.allocator");
-    if (desc.reserved != 0) refuse(format("vox_io_load_desc.reserved is %u, not 0", desc.reserved));
+    if ((desc.flags & ~std::uint32_t{VOX_IO_LOAD_KEEP_UNUSED}) != 0)
+        refuse(format("vox_io_load_desc.flags is 0x%x, expected vox_io_load_flags", desc.flags));
     return desc;
 }
 
@@ -115,6 +117,7 @@ vox_io_mesh* made(const vox_io_load_desc& desc, const Read& read) {
     const Progress progress(desc.progress, desc.progress_user);
     progress.report(0);
     MeshData data = read(progress.part(0, 0.5));
+    if ((desc.flags & VOX_IO_LOAD_KEEP_UNUSED) == 0) leave_out_unused(data);
     return make_mesh(std::move(data), desc.allocator, progress.part(0.5, 1));
 }
 
@@ -142,6 +145,10 @@ MeshData checked(const vox_io_mesh_view& arrays) {
     check_indices(arrays.tets, arrays.tet_count, 4, "tet");
     check_indices(arrays.triangles, arrays.triangle_count, 3, "triangle");
     MeshData data;
+    if (arrays.tet_regions)
+        data.tet_regions.assign(arrays.tet_regions, arrays.tet_regions + arrays.tet_count);
+    if (arrays.file_vertices)
+        data.file_vertices.assign(arrays.file_vertices, arrays.file_vertices + arrays.vertex_count);
     if (arrays.vertex_count)
         data.positions.assign(arrays.positions, arrays.positions + 3 * arrays.vertex_count);
     if (arrays.tet_count) data.tets.assign(arrays.tets, arrays.tets + 4 * arrays.tet_count);

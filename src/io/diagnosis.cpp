@@ -206,6 +206,8 @@ vox_io_report diagnose(const MeshData& data, const Progress& progress) {
     report.skipped_elements = data.skipped_elements;
     report.second_order_tets = data.second_order_tets;
     report.unit_in_metres = data.unit_in_metres;
+    report.left_out_vertices = data.left_out_vertices;
+    report.left_out_triangles = data.left_out_triangles;
     for (std::size_t t = 0; t < data.triangles.size(); t += 3) {
         const Index* v = &data.triangles[t];
         report.degenerate_triangles += v[0] == v[1] || v[1] == v[2] || v[2] == v[0];
@@ -237,6 +239,10 @@ std::string warnings_of(const MeshData& data, const vox_io_report& r) {
     };
     for (const std::string& note : data.notes) say(note);
 
+    say_if(r.left_out_vertices, "vertex belongs to no tet and was left out",
+           "vertices belong to no tet and were left out");
+    say_if(r.left_out_triangles, "triangle has such a vertex and was left out",
+           "triangles have such a vertex and were left out");
     say_if(r.second_order_tets, "tet has more than four nodes; only its corners were used",
            "tets have more than four nodes; only their corners were used");
     if (r.inverted_tets > 0 && r.inverted_tets == r.tets)

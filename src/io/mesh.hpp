@@ -11,12 +11,14 @@
 
 struct vox_io_mesh {
     explicit vox_io_mesh(const vox::CallerMemory& caller)
-        : memory(caller), positions(&memory), tets(&memory), triangles(&memory) {}
+        : memory(caller), positions(&memory), tets(&memory), triangles(&memory), file_vertices(&memory),
+          tet_regions(&memory) {}
 
     vox::CallerMemory memory; // first, as the arrays are released to it
     vox::io::MeshData data;   // its arrays are empty if those below are in use
     vox::Array<double> positions;
-    vox::Array<std::uint32_t> tets, triangles;
+    vox::Array<std::uint32_t> tets, triangles, file_vertices;
+    vox::Array<std::int32_t> tet_regions;
     vox_io_mesh_view view{};
     vox_io_report report{};
     std::string warnings; // one line each

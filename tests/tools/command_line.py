@@ -62,7 +62,7 @@ class CommandLine(Files):
 
     def test_wrong_usage(self):
         for arguments in (
-            [], ["nonsense"], ["--nonsense"], ["info"], ["suggest"], ["collide"], ["info", self.two, "--nonsense"],
+            ["nonsense"], ["--nonsense"], ["info"], ["suggest"], ["collide"], ["info", self.two, "--nonsense"],
             ["collide", self.two],                              # neither B nor --self
             ["collide", self.two, "--self", "--offset", 1, 0, 0],  # moves B, and there is none
             ["collide", self.two, "--self", "--scale", 2],
@@ -139,7 +139,7 @@ class CommandLine(Files):
     def test_info(self):
         points = TWO_TETS + [TWO_TETS[0]]
         odd = self.write("odd.msh", msh(points, TETS + [(1, 2, 3, 3)]))
-        meshes = run_json("info", self.two, odd)["meshes"]
+        meshes = run_json("info", self.two, odd, "--keep-unused")["meshes"]
         self.assertEqual(len(meshes), 2)
         for mesh in meshes:
             for key in INFO_KEYS:

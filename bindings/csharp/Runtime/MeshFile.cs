@@ -170,6 +170,30 @@ namespace Voxtet
             }
         }
 
+        /// <summary>A number for each tetrahedron; null where the file has none that is not 0.</summary>
+        public int[] GetTetRegions()
+        {
+            using (var use = handle.Read())
+            {
+                IoMeshView view;
+                VoxException.Check(Native.vox_io_mesh_get_arrays(use.Pointer, &view));
+                if (view.tet_regions == null) return null;
+                return new ReadOnlySpan<int>(view.tet_regions, checked((int)view.tet_count)).ToArray();
+            }
+        }
+
+        /// <summary>For each vertex its number in the file; null where no vertex was left out.</summary>
+        public uint[] GetFileVertices()
+        {
+            using (var use = handle.Read())
+            {
+                IoMeshView view;
+                VoxException.Check(Native.vox_io_mesh_get_arrays(use.Pointer, &view));
+                if (view.file_vertices == null) return null;
+                return new ReadOnlySpan<uint>(view.file_vertices, checked((int)view.vertex_count)).ToArray();
+            }
+        }
+
         /// <summary>What was read, and what is odd about it.</summary>
         public IoReport Report
         {

@@ -325,6 +325,14 @@ namespace Voxtet
         Assimp = 8,
     }
 
+    /// <summary>Flags of a vox_io_load_desc.</summary>
+    [Flags]
+    public enum IoLoadFlags : uint
+    {
+        /// <summary>Keep vertices that belong to no tet, and triangles that name one.</summary>
+        KeepUnused = 1,
+    }
+
     public enum IoSolidKind : int
     {
         /// <summary>Isosurface stuffing: the boundary follows the surface, and dihedral angles are between 10.7 and
@@ -1392,8 +1400,8 @@ namespace Voxtet
         public IoFormat format;
         /// <summary>which mesh of a scene file to take, from 1; 0: all, joined</summary>
         public uint mesh;
-        /// <summary>0</summary>
-        public uint reserved;
+        /// <summary>vox_io_load_flags</summary>
+        public IoLoadFlags flags;
         /// <summary>Where the arrays of the mesh live until vox_io_mesh_destroy.</summary>
         public Allocator* allocator;
         /// <summary>Called now and then, on the calling thread, with the fraction of the work done, ascending from 0 to
@@ -1423,10 +1431,15 @@ namespace Voxtet
         /// <summary>those of the file</summary>
         public uint* triangles;
         public ulong triangle_count;
+        /// <summary>A number for each tet, where the file has some that are not 0; else null.</summary>
+        public int* tet_regions;
+        /// <summary>For each vertex its number in the file, counted from 0 in the file's order, ascending; null if
+        /// vertices were not left out.</summary>
+        public uint* file_vertices;
     }
 
     /// <summary>What was read, what was left out, and what is odd about the mesh.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 208)]
+    [StructLayout(LayoutKind.Sequential, Size = 224)]
     public struct IoReport
     {
         public uint struct_size;
@@ -1471,6 +1484,10 @@ namespace Voxtet
         public Double3 bounds_max;
         /// <summary>length of the file's unit; 0 if the file does not state it</summary>
         public double unit_in_metres;
+        /// <summary>vertices of the file that belong to no tet and are not in the mesh</summary>
+        public ulong left_out_vertices;
+        /// <summary>triangles of the file that name one of them and are not in the mesh</summary>
+        public ulong left_out_triangles;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -2164,7 +2181,9 @@ namespace Voxtet
         [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_io_mesh_measure(IntPtr mesh, IntPtr surface, IoQuality* out_quality);
 
-        /// <summary>Writes vertices, triangles and tets, in the mesh's order. desc null: defaults.</summary>
+        /// <summary>Writes vertices, triangles and tets, in the mesh's order, and the tets' regions: as physical groups
+        /// in .msh, as the cell array "region" in .vtu, unless cell_data has one of that name. desc null:
+        /// defaults.</summary>
         [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_io_write(IntPtr mesh, IntPtr path, IoWriteDesc* desc);
 
@@ -2952,7 +2971,7 @@ namespace Voxtet
             entries.Add(Entry("vox_io_load_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
             entries.Add(Entry("vox_io_load_desc.format", (byte*)&s.format - begin, 4, 4));
             entries.Add(Entry("vox_io_load_desc.mesh", (byte*)&s.mesh - begin, 8, 8));
-            entries.Add(Entry("vox_io_load_desc.reserved", (byte*)&s.reserved - begin, 12, 12));
+            entries.Add(Entry("vox_io_load_desc.flags", (byte*)&s.flags - begin, 12, 12));
             entries.Add(Entry("vox_io_load_desc.allocator", (byte*)&s.allocator - begin, 16, 16));
             entries.Add(Entry("vox_io_load_desc.progress", (byte*)&s.progress - begin, 24, 20));
             entries.Add(Entry("vox_io_load_desc.progress_user", (byte*)&s.progress_user - begin, 32, 24));
@@ -2972,20 +2991,22 @@ namespace Voxtet
         {
             IoMeshView s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_io_mesh_view", sizeof(IoMeshView), 48, 48));
+            entries.Add(Entry("vox_io_mesh_view", sizeof(IoMeshView), 64, 56));
             entries.Add(Entry("vox_io_mesh_view.positions", (byte*)&s.positions - begin, 0, 0));
             entries.Add(Entry("vox_io_mesh_view.vertex_count", (byte*)&s.vertex_count - begin, 8, 8));
             entries.Add(Entry("vox_io_mesh_view.tets", (byte*)&s.tets - begin, 16, 16));
             entries.Add(Entry("vox_io_mesh_view.tet_count", (byte*)&s.tet_count - begin, 24, 24));
             entries.Add(Entry("vox_io_mesh_view.triangles", (byte*)&s.triangles - begin, 32, 32));
             entries.Add(Entry("vox_io_mesh_view.triangle_count", (byte*)&s.triangle_count - begin, 40, 40));
+            entries.Add(Entry("vox_io_mesh_view.tet_regions", (byte*)&s.tet_regions - begin, 48, 48));
+            entries.Add(Entry("vox_io_mesh_view.file_vertices", (byte*)&s.file_vertices - begin, 56, 52));
         }
 
         static void AddIoReport(List<LayoutEntry> entries)
         {
             IoReport s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_io_report", sizeof(IoReport), 208, 208));
+            entries.Add(Entry("vox_io_report", sizeof(IoReport), 224, 224));
             entries.Add(Entry("vox_io_report.struct_size", (byte*)&s.struct_size - begin, 0, 0));
             entries.Add(Entry("vox_io_report.format", (byte*)&s.format - begin, 4, 4));
             entries.Add(Entry("vox_io_report.vertices", (byte*)&s.vertices - begin, 8, 8));
@@ -3009,6 +3030,8 @@ namespace Voxtet
             entries.Add(Entry("vox_io_report.bounds_min", (byte*)&s.bounds_min - begin, 152, 152));
             entries.Add(Entry("vox_io_report.bounds_max", (byte*)&s.bounds_max - begin, 176, 176));
             entries.Add(Entry("vox_io_report.unit_in_metres", (byte*)&s.unit_in_metres - begin, 200, 200));
+            entries.Add(Entry("vox_io_report.left_out_vertices", (byte*)&s.left_out_vertices - begin, 208, 208));
+            entries.Add(Entry("vox_io_report.left_out_triangles", (byte*)&s.left_out_triangles - begin, 216, 216));
         }
 
         static void AddIoTetrahedralizeDesc(List<LayoutEntry> entries)

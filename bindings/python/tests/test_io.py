@@ -56,7 +56,7 @@ class Files(unittest.TestCase):
     def test_assimp(self):
         path = self.path("triangle.obj")
         with open(path, "w") as file:
-            file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+            file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n")
         own = voxtet.io.load(path)
         try:
             other = voxtet.io.load(path, format="assimp")
@@ -83,6 +83,9 @@ class Files(unittest.TestCase):
         self.assertEqual(caught.exception.filename, self.path("nothing.msh"))
         self.assertIsInstance(caught.exception, voxtet.VoxError)
         self.assertGreater(caught.exception.errno, 0)
+        for text in (str(caught.exception), caught.exception.strerror):
+            self.assertRegex(text, r"nothing\.msh: \w+")
+            self.assertNotIn("None", text)
         with self.assertRaises(OSError) as caught:
             voxtet.io.save(self.data, self.path("no/such/folder.msh"))
         self.assertEqual(caught.exception.filename, self.path("no/such/folder.msh"))
@@ -126,6 +129,54 @@ class Files(unittest.TestCase):
     def test_pickle(self):
         again = pickle.loads(pickle.dumps(self.data))
         np.testing.assert_array_equal(again.tets, self.tets)
+        self.assertEqual((again.regions, again.file_vertices), (None, None))
+        marked = voxtet.io.MeshData(self.positions, self.tets, None, np.arange(len(self.tets)), range(len(self.positions)))
+        again = pickle.loads(pickle.dumps(marked))
+        np.testing.assert_array_equal(again.regions, np.arange(len(self.tets)))
+        np.testing.assert_array_equal(again.file_vertices, np.arange(len(self.positions)))
+
+    def odd(self):
+        """A mesh file with a vertex of the geometry in front, and one of a triangle behind."""
+        points = "9 9 9 0\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n5 5 5 0\n"
+        path = self.path("odd.mesh")
+        with open(path, "w") as file:
+            file.write(f"MeshVersionFormatted 2\nDimension 3\nVertices\n6\n{points}Tetrahedra\n1\n2 3 4 5 7\nTriangles\n1\n2 3 6 0\nEnd\n")
+        return path
+
+    def test_unused_vertices(self):
+        path = self.odd()
+        with open(path, "rb") as file:
+            content = file.read()
+        words = "2 vertices belong to no tet and were left out; 1 triangle has such a vertex and was left out"
+        for read in (lambda **o: voxtet.io.load(path, **o), lambda **o: voxtet.io.read(content, path, **o)):
+            with self.assertWarns(voxtet.MeshWarning) as caught:
+                data = read()
+            self.assertEqual(str(caught.warning), f"{path}: {words}")
+            self.assertEqual(caught.filename, __file__)
+            self.assertEqual((len(data.positions), len(data.triangles), data.tets.tolist()), (4, 0, [[0, 1, 2, 3]]))
+            self.assertEqual((data.file_vertices.tolist(), data.report.left_out_vertices), ([1, 2, 3, 4], 2))
+            self.assertEqual("; ".join(data.warnings), words)
+            with self.assertWarns(voxtet.MeshWarning):
+                data = read(keep_unused=True)
+            self.assertEqual((len(data.positions), len(data.triangles), data.file_vertices), (6, 1, None))
+        with self.assertRaises(TypeError):
+            voxtet.io.load(path, keep_unused=1)
+
+    def test_regions(self):
+        with self.assertWarns(voxtet.MeshWarning):
+            self.assertEqual(voxtet.io.load(self.odd()).regions.tolist(), [7])
+        regions = np.arange(len(self.tets)) // 7 - 1
+        marked = voxtet.io.MeshData(self.positions, self.tets, voxtet.io.boundary(self.tets), regions)
+        self.assertFalse(marked.regions.flags.writeable)
+        for format in ("msh_22", "msh_41", "vtu"):
+            for binary in (False, True):
+                again = voxtet.io.read(voxtet.io.write(marked, format, binary=binary), "a." + format[:3])
+                np.testing.assert_array_equal(again.regions, regions)
+                np.testing.assert_array_equal(again.tets, self.tets)
+        self.assertIsNone(self.data.regions)
+        for wrong, error in ((regions[1:], ValueError), (regions * 2**40, ValueError), (regions * .5, TypeError)):
+            with self.assertRaises(error):
+                voxtet.io.MeshData(self.positions, self.tets, None, wrong)
 
     def test_bodies(self):
         made = [voxtet.io.make_lattice_ball(1000, 1), voxtet.io.make_ball(1, .3), voxtet.io.make_torus(2, .5, .3),

@@ -78,6 +78,107 @@ class Packages(unittest.TestCase):
         self.assertAlmostEqual(filled.report.volume, 1, 1)
         self.assertEqual(len(surface.triangles), len(mesh.faces))
 
+    @wants("trimesh")
+    def test_trimesh_scene(self):
+        import trimesh
+        ball = voxtet.io.to_trimesh(self.data)
+        scene = trimesh.Scene()
+        scene.add_geometry(ball)
+        scene.add_geometry(ball, transform=trimesh.transformations.translation_matrix([3, 0, 0]))
+        surface = voxtet.io.from_trimesh(scene)
+        self.assertEqual(len(surface.triangles), 2 * len(ball.faces))
+        self.assertAlmostEqual(surface.report.volume, 2)
+        self.assertAlmostEqual(float(surface.positions[:, 0].max()), 4)
+        self.assertEqual(len(voxtet.Primitives(scene)), 2 * len(ball.faces))
+        for empty in (trimesh.Scene(), trimesh.Trimesh()):
+            for call in (voxtet.io.from_trimesh, voxtet.io.tetrahedralize, voxtet.Primitives):
+                with self.assertRaises(ValueError):
+                    call(empty)
+
+    def second_order(self):
+        """The mesh with a vertex on each edge, ten a tet, which lie behind the corners; and a vertex of no cell before them."""
+        edges, number = np.unique(np.sort(self.tets[:, [[0, 1], [1, 2], [0, 2], [0, 3], [1, 3], [2, 3]]], axis=2).reshape(-1, 2),
+                                  axis=0, return_inverse=True)
+        middles = self.positions[edges].mean(axis=1)
+        tens = np.hstack([self.tets, len(self.positions) + number.reshape(-1, 6)]).astype(np.int64)
+        return np.concatenate([[[9, 9, 9]], self.positions, middles]), tens + 1
+
+    def check_corners(self, load, mesh):
+        """Corners are taken, and it is said."""
+        with self.assertWarns(voxtet.MeshWarning) as caught:
+            data = load(mesh)
+        self.same(data)
+        np.testing.assert_array_equal(data.file_vertices, np.arange(len(self.positions)) + 1)
+        self.assertIn(f"{len(self.tets)} tets have more than four nodes; only their corners were used", str(caught.warning))
+        self.assertRegex(str(caught.warning), r"\d+ vertices belong to no tet and were left out")
+        self.assertEqual(caught.filename, __file__)
+        with self.assertWarns(voxtet.MeshWarning):
+            self.assertGreater(len(load(mesh, keep_unused=True).positions), len(self.positions))
+        with self.assertWarns(voxtet.MeshWarning):
+            located = voxtet.locate(self.positions, mesh)
+        np.testing.assert_array_equal(located.tet, voxtet.locate(self.positions, self.positions, self.tets).tet)
+        with self.assertWarns(voxtet.MeshWarning), voxtet.Grid() as grid:
+            grid.add(mesh, self_collision=True)
+            grid.step()
+            self.assertEqual(len(grid.contacts), 0)
+
+    @wants("meshio")
+    def test_meshio_of_higher_order(self):
+        import meshio
+        points, tens = self.second_order()
+        for kind, cells in (("tetra10", tens), ("tetra20", np.hstack([tens, tens])), ("VTK_LAGRANGE_TETRAHEDRON", tens)):
+            with self.subTest(kind):
+                self.check_corners(voxtet.io.from_meshio, meshio.Mesh(points, [(kind, cells)]))
+        hexes = [("hexahedron", [list(range(8))])]
+        for call in (voxtet.io.from_meshio, lambda m: voxtet.locate(points, m), voxtet.Primitives, voxtet.io.quality):
+            with self.assertRaisesRegex(ValueError, "1 hexahedron"):
+                call(meshio.Mesh(points, hexes))
+        with self.assertWarnsRegex(voxtet.MeshWarning, "1 volume element of another kind was left out: hexahedron"):
+            voxtet.io.from_meshio(meshio.Mesh(self.positions, [("tetra", self.tets), *hexes]))
+        surface = voxtet.io.from_meshio(meshio.Mesh(points, [("triangle6", tens[:, [0, 1, 2, 4, 5, 6]])]))
+        np.testing.assert_array_equal(surface.triangles, tens[:, :3])
+
+    @wants("meshio")
+    def test_meshio_regions(self):
+        import meshio
+        regions = np.arange(len(self.tets)) // 3
+        blocks = [("triangle", [[0, 1, 2]]), ("tetra", self.tets[:5]), ("tetra", self.tets[5:])]
+        parts = [[9], regions[:5], regions[5:]]
+        for name in ("gmsh:physical", "medit:ref", "anything"):
+            data = {"stress": [np.ones(1), np.ones(5), np.ones(len(regions) - 5)], name: parts}
+            read = voxtet.io.from_meshio(meshio.Mesh(self.positions, blocks, cell_data=data))
+            np.testing.assert_array_equal(read.regions, regions)
+        again = voxtet.io.from_meshio(voxtet.io.to_meshio(read))
+        np.testing.assert_array_equal(again.regions, regions)
+
+    @wants("pyvista")
+    def test_pyvista_of_higher_order(self):
+        import pyvista
+        points, tens = self.second_order()
+
+        def grid(kind, cells):
+            padded = np.insert(cells, 0, cells.shape[1], axis=1)
+            return pyvista.UnstructuredGrid(padded.ravel(), np.full(len(cells), kind, np.uint8), points)
+
+        for kind in (24, 71, 78):
+            with self.subTest(kind):
+                self.check_corners(voxtet.io.from_pyvista, grid(kind, tens))
+        hexes = grid(12, np.arange(8)[None])
+        for call in (voxtet.io.from_pyvista, lambda m: voxtet.locate(points, m), voxtet.Primitives, voxtet.io.tetrahedralize):
+            with self.assertRaisesRegex(ValueError, "1 hexahedron"):
+                call(hexes)
+        with self.assertRaisesRegex(ValueError, "no triangles, but 3 points"):
+            voxtet.io.from_pyvista(pyvista.PolyData(points[:3]))
+        surface = voxtet.io.from_pyvista(grid(22, tens[:, [0, 1, 2, 4, 5, 6]]))
+        np.testing.assert_array_equal(surface.triangles, tens[:, :3])
+        with self.assertRaisesRegex(ValueError, "triangles"):
+            voxtet.locate(points, surface)
+
+    @wants("pyvista")
+    def test_pyvista_regions(self):
+        marked = voxtet.io.MeshData(self.positions, self.tets, None, np.arange(len(self.tets)))
+        np.testing.assert_array_equal(voxtet.io.from_pyvista(voxtet.io.to_pyvista(marked)).regions, marked.regions)
+
     def test_unknown(self):
         for call in (voxtet.io.from_meshio, voxtet.io.tetrahedralize, voxtet.io.quality):
             with self.assertRaises(TypeError):

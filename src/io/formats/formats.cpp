@@ -133,7 +133,17 @@ void refuse_other_content(const File& file) {
     if (text.empty()) refuse("expected a mesh, found nothing but white space");
     if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff"))
         refuse("expected ASCII or UTF-8 text, found UTF-16");
-    if (bytes.starts_with("\x1f\x8b")) refuse("expected a mesh, found a gzip archive: unpack it first");
+    constexpr std::pair<std::string_view, const char*> archives[] = {{"\x1f\x8b", "a gzip"},
+                                                                     {"\xfd"
+                                                                      "7zXZ",
+                                                                      "an xz"},
+                                                                     {"BZh", "a bzip2"},
+                                                                     {"\x28\xb5\x2f\xfd", "a zstd"},
+                                                                     {"7z\xbc\xaf\x27\x1c", "a 7z"},
+                                                                     {"\x04\x22\x4d\x18", "an LZ4"}};
+    for (const auto& [start, kind] : archives)
+        if (bytes.starts_with(start))
+            refuse(format("expected a mesh, found %s archive: unpack it first", kind).c_str());
     if (text.starts_with("version https://git-lfs"))
         refuse("expected a mesh, found a git LFS pointer: the file itself was not fetched");
     for (const char* html : {"<!DOCTYPE html", "<!doctype html", "<html", "<HTML"})
@@ -156,6 +166,9 @@ MeshData finished(MeshData data, const Skipped& skipped, const std::string& name
     for (const auto& [kind, number] : skipped.volumes)
         data.notes.push_back(format("%llu volume element%s of another kind %s left out: %s", llu(number),
                                     number == 1 ? "" : "s", number == 1 ? "was" : "were", kind.c_str()));
+    if (!data.tet_regions.empty()) data.tet_regions.resize(data.tets.size() / 4); // where a file has no more
+    if (std::count(data.tet_regions.begin(), data.tet_regions.end(), 0) == std::ssize(data.tet_regions))
+        data.tet_regions = {};
     if (!data.tets.empty()) return data;
     std::string text = format("%s: expected tetrahedra, found none", name.c_str());
     if (!data.triangles.empty()) text += format(" (but %zu triangles)", data.triangles.size() / 3);

@@ -2,6 +2,7 @@
 // (C. Geuzaine and J.-F. Remacle, Gmsh reference manual, "File formats").
 #include "io/formats/node_numbers.hpp"
 #include "io/formats/readers.hpp"
+#include "io/formats/regions.hpp"
 
 namespace vox::io {
 namespace {
@@ -85,6 +86,8 @@ public:
                 }
                 read_elements();
                 end_section(name);
+            } else if (name == "Entities" && version_ >= 40) {
+                read_entities();
             } else {
                 skip_section(name);
             }
@@ -96,6 +99,11 @@ public:
             end_section(version_ == 10 ? "ELM" : "Elements");
         }
         if (!have_elements_) in_.expected("an $Elements section");
+        if (version_ >= 40) // a group for an entity
+            for (std::int32_t& region : data_.tet_regions) {
+                const auto group = groups_.find(region);
+                region = group == groups_.end() ? 0 : group->second;
+            }
         return finished(std::move(data_), skipped_, file_.name);
     }
 
@@ -154,6 +162,19 @@ private:
             in_.fail("expected %s after $%s, found the end of the file", printable(mark).c_str(),
                      printable(name).c_str());
         in_.seek(in_.offset() + distance + mark.size());
+    }
+
+    // Files are read without the groups of their volumes, if these cannot be read.
+    void read_entities() {
+        in_.line_end();
+        const std::string_view bytes = in_.rest();
+        skip_section("Entities");
+        const File section{file_.name, bytes.substr(0, bytes.size() - in_.remaining())};
+        try {
+            groups_ = gmsh_groups(section, version_, binary_, swap_);
+        } catch (const Error&) {
+            data_.notes.emplace_back("the section $Entities is damaged: regions are not known");
+        }
     }
 
     // ---- nodes ----
@@ -250,7 +271,7 @@ private:
         in_.integer<std::int64_t>("an element number");
         const ElementType& type = checked_type(in_.integer<std::int64_t>("an element type"));
         if (version_ == 10) {
-            in_.integer<std::int64_t>("a physical region");
+            region_ = region_of(in_.integer<std::int64_t>("a physical region"));
             in_.integer<std::int64_t>("an elementary region");
             const auto nodes = in_.integer<std::int64_t>("a number of nodes");
             if (nodes != type.nodes)
@@ -258,7 +279,11 @@ private:
         } else {
             const auto tags = in_.integer<std::int64_t>("a number of tags");
             if (tags < 0) in_.fail("expected a number of tags, found %lld", lld(tags));
-            for (std::int64_t i = 0; i < tags; ++i) in_.integer<std::int64_t>("a tag");
+            region_ = 0;
+            for (std::int64_t i = 0; i < tags; ++i) {
+                const auto tag = in_.integer<std::int64_t>("a tag");
+                if (i == 0) region_ = region_of(tag);
+            }
         }
         text_nodes(type);
     }
@@ -267,6 +292,7 @@ private:
         std::vector<std::uint32_t>* const corners = corners_of(type, 1);
         const int wanted = type.cell == CellKind::triangle ? 3 : 4;
         if (!corners) return in_.skip_line();
+        if (corners == &data_.tets) data_.tet_regions.push_back(region_);
         for (int i = 0; i < type.nodes; ++i) {
             const auto number = in_.integer<std::int64_t>("a node number");
             if (i < wanted) corners->push_back(numbers_.vertex_of(number, in_));
@@ -303,7 +329,10 @@ private:
         }
         const std::size_t wanted = type.cell == CellKind::triangle ? 3 : 4;
         for (std::uint64_t e = 0; e < count; ++e) {
-            const char* const nodes = in_.take(size, "an element") + before;
+            const char* const element = in_.take(size, "an element");
+            const char* const nodes = element + before;
+            if (version_ < 40) region_ = before > 4 ? load<std::int32_t>(element + 4, swap_) : 0;
+            if (corners == &data_.tets) data_.tet_regions.push_back(region_);
             for (std::size_t i = 0; i < wanted; ++i)
                 corners->push_back(numbers_.vertex_of(
                     static_cast<std::int64_t>(load<Integer>(nodes + i * sizeof(Integer), swap_)), in_));
@@ -318,8 +347,8 @@ private:
         std::uint64_t done = 0;
         for (std::uint64_t b = 0; b < blocks; ++b) {
             begin_line();
-            short_number("an entity");
-            short_number("an entity");
+            const std::int64_t first = short_number("an entity"), second = short_number("an entity");
+            region_ = region_of(version_ == 40 ? first : second); // for now, the entity
             const ElementType& type = checked_type(short_number("an element type"));
             const std::uint64_t count = in_block("elements in this block", binary_ ? 8 : 4);
             if (done + count > total)
@@ -415,7 +444,9 @@ private:
     MeshData data_;
     NodeNumbers numbers_;
     Skipped skipped_;
-    int version_ = 0; // times ten
+    std::int32_t region_ = 0;                     // of the element at hand
+    std::map<std::int64_t, std::int32_t> groups_; // by the entity
+    int version_ = 0;                             // times ten
     bool binary_ = false;
     bool swap_ = false;
     bool parametric_ = false;

@@ -1,5 +1,6 @@
 // Medit .mesh, ASCII (P. Frey, "MEDIT: an interactive mesh visualization software", INRIA RT-0253, 2001).
 #include "io/formats/readers.hpp"
+#include "io/formats/regions.hpp"
 
 namespace vox::io {
 namespace {
@@ -109,7 +110,8 @@ private:
                     highest_at_ = in_.offset();
                 }
             }
-            integer<std::int64_t>("a reference");
+            const std::int32_t region = region_of(integer<std::int64_t>("a reference"));
+            if (tets) data_.tet_regions.push_back(region);
         }
         if (!wanted) skipped_.add(section.cell, section.name, count);
         if (section.cell == CellKind::high_tet) data_.second_order_tets += count;

@@ -1,9 +1,19 @@
 // TetGen .node and .ele (H. Si, TetGen user's manual, "File formats").
 #include "io/formats/node_numbers.hpp"
 #include "io/formats/readers.hpp"
+#include "io/formats/regions.hpp"
 
 namespace vox::io {
 namespace {
+
+// The last attribute of a tet, where TetGen puts its region (option -A), if it is a whole number.
+std::int32_t last_as_region(Scanner& in) {
+    std::string_view last;
+    while (!in.at_line_end()) last = in.word("an attribute");
+    double number = 0;
+    read_double(last.data(), last.data() + last.size(), number);
+    return number == std::floor(number) && std::fabs(number) < 0x1p31 ? static_cast<std::int32_t>(number) : 0;
+}
 
 void read_nodes(const File& file, MeshData& data, NodeNumbers& numbers) {
     Scanner in(file, '#');
@@ -33,6 +43,7 @@ void read_tets(const File& file, const NodeNumbers& numbers, MeshData& data) {
     const auto corners = in.integer<std::int64_t>("number of nodes per tetrahedron");
     if (corners != 4 && corners != 10)
         in.fail("expected 4 or 10 nodes per tetrahedron, found %lld", lld(corners));
+    const bool has_attributes = !in.at_line_end() && in.peek() != "0";
     in.skip_line();
     in.check_count("number of tetrahedra", count, 9, max_count, in.offset());
     data.tets.reserve(4 * count);
@@ -44,7 +55,8 @@ void read_tets(const File& file, const NodeNumbers& numbers, MeshData& data) {
             if (c >= 4) continue; // nodes on edges
             data.tets.push_back(numbers.vertex_of(number, in));
         }
-        in.skip_line(); // attributes
+        if (has_attributes) data.tet_regions.push_back(last_as_region(in));
+        in.skip_line();
     }
     in.skip_space();
     if (!in.done()) in.expected(format("the end of the file after %llu tetrahedra", llu(count)).c_str());

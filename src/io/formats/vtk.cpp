@@ -28,7 +28,9 @@ public:
             } else if (keyword == "METADATA") {
                 skip_metadata();
             } else if (keyword == "POINT_DATA" || keyword == "CELL_DATA") {
-                break; // what follows is not needed
+                in_.seek(start);
+                regions_ = vtk_regions(in_, binary_, ends_.size());
+                break;
             } else {
                 in_.seek(start);
                 in_.expected("POINTS, CELLS, CELL_TYPES, FIELD, METADATA, POINT_DATA or CELL_DATA");
@@ -45,6 +47,7 @@ public:
                        [&](std::size_t cell, const std::string& text) {
                            in_.fail_at(cells_at_, "cell %zu: %s", cell, text.c_str());
                        });
+        take_vtk_regions(types_, regions_, 0, data_);
         return finished(std::move(data_), skipped, file_.name);
     }
 
@@ -212,6 +215,7 @@ private:
     Scanner in_;
     MeshData data_;
     std::vector<std::uint64_t> ends_, connectivity_, types_;
+    RegionArray regions_;
     std::size_t cells_at_ = 0, types_at_ = 0;
     bool binary_ = false;
     bool have_points_ = false, have_cells_ = false, have_types_ = false;

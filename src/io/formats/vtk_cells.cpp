@@ -28,6 +28,19 @@ VtkCellType vtk_cell_type(std::uint64_t type) {
     return {CellKind::other, 0, "other cells"};
 }
 
+void take_vtk_regions(const std::vector<std::uint64_t>& types, const RegionArray& regions,
+                      std::size_t tets_before, MeshData& data) {
+    if (regions.of_cells().size() != types.size()) return;
+    data.tet_regions.resize(tets_before, 0);
+    for (std::size_t c = 0; c < types.size(); ++c) {
+        const CellKind kind = vtk_cell_type(types[c]).cell;
+        if (kind == CellKind::tet || kind == CellKind::high_tet)
+            data.tet_regions.push_back(regions.of_cells()[c]);
+    }
+    if (data.tet_regions.size() != data.tets.size() / 4)
+        data.tet_regions.resize(tets_before); // some were left out
+}
+
 std::optional<NumberType> vtk_number(std::string_view name) {
     // In the order of NumberType: the name in XML files, and those in legacy files.
     static constexpr std::string_view names[][3] = {

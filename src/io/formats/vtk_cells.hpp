@@ -3,6 +3,7 @@
 
 #include "io/formats/number_type.hpp"
 #include "io/formats/readers.hpp"
+#include "io/formats/regions.hpp"
 
 #include <algorithm>
 
@@ -49,6 +50,10 @@ void take_vtk_cells(const std::vector<std::uint64_t>& ends, const std::vector<st
         }
     }
 }
+
+// Adds the regions of those cells that are tets, of which there were `tets_before` before they were taken.
+void take_vtk_regions(const std::vector<std::uint64_t>& types, const RegionArray& regions,
+                      std::size_t tets_before, MeshData& data);
 
 // The number type of that name in either kind of file.
 std::optional<NumberType> vtk_number(std::string_view name);

@@ -277,10 +277,33 @@ private:
         append(open(kinds, cells), cells, types, progress.part(0.5, 0.6));
         const pugi::xml_node list = cell_array(node, "connectivity");
         append(open(list, ends.back()), ends.back(), connectivity, progress.part(0.6, 1));
+        const std::size_t tets_before = data_.tets.size() / 4;
         take_vtk_cells(ends, connectivity, types, first_vertex, points, data_, skipped_,
                        [&](std::size_t cell, const std::string& text) {
                            fail(list, format("cell %zu: %s", cell, text.c_str()));
                        });
+        take_vtk_regions(types, regions_of(piece, cells), tets_before, data_);
+    }
+
+    // Files are read without regions if these cannot be read.
+    RegionArray regions_of(const pugi::xml_node& piece, std::uint64_t cells) {
+        RegionArray found;
+        for (const pugi::xml_node array : piece.child("CellData").children("DataArray")) {
+            const std::string_view name = array.attribute("Name").value();
+            const std::optional<NumberType> type = vtk_number(array.attribute("type").value());
+            if (!type ||
+                !found.wants(name, array.attribute("NumberOfComponents").as_ullong(1), is_integer(*type)))
+                continue;
+            std::vector<double> numbers;
+            try {
+                append(open(array, cells), cells, numbers, {});
+                found.take(name, numbers);
+            } catch (const Error& error) {
+                if (error.result() == VOX_ERROR_INVALID_STATE) throw; // cancelled
+                data_.notes.push_back(format("a cell array was left out: %s", error.what()));
+            }
+        }
+        return found;
     }
 
     const File& file_;

@@ -1,5 +1,6 @@
 // Writes Gmsh .msh 2.2 and 4.1 (Gmsh reference manual, "File formats"). All triangles belong to entity 1 of
-// dimension 2, all tets to entity 1 of dimension 3.
+// dimension 2. Tets without regions belong to entity 1 of dimension 3; with regions there is an entity for
+// each, whose physical group is the region.
 #include "base/llu.hpp"
 #include "io/formats/writers.hpp"
 #include "io/throw_error.hpp"
@@ -80,8 +81,9 @@ private:
                     put(kind.type);
                     put(tags);
                 }
-                put(std::uint32_t{1});
-                put(std::uint32_t{1});
+                const Volume volume = &kind == kinds_ ? Volume{1, 1} : volume_of(i / kind.nodes);
+                put(volume.group);
+                put(volume.entity);
                 for (std::uint32_t c = 0; c < kind.nodes; ++c) put(kind.corners[i + c] + 1);
                 end_row();
             }
@@ -92,27 +94,32 @@ private:
     // ---- version 4.1; counts and the numbers of nodes and elements have 64 bits ----
 
     void write_blocks() {
-        constexpr std::uint32_t entity = 1, parametric = 0;
+        constexpr std::uint32_t parametric = 0, first_entity = 1;
         constexpr std::uint64_t one = 1;
         const bool volume = kinds_[1].count() > 0, surface = kinds_[0].count() > 0 || !volume;
         write_entities(surface, volume);
 
         out_ << "$Nodes\n"; // in one block
         row(one, vertices_, one, vertices_);
-        row(std::uint32_t{volume ? 3u : 2u}, entity, parametric, vertices_);
+        row(std::uint32_t{volume ? 3u : 2u}, first_entity, parametric, vertices_);
         for (std::uint64_t v = 0; v < vertices_; ++v) row(v + 1);
         const double* p = mesh_.positions;
         for (std::uint64_t v = 0; v < vertices_; ++v, p += 3) row(p[0], p[1], p[2]);
         end_section("$EndNodes\n");
 
         out_ << "$Elements\n";
-        const std::uint64_t blocks = (kinds_[0].count() > 0) + (kinds_[1].count() > 0);
+        std::uint64_t blocks = kinds_[0].count() > 0;
+        for (std::uint64_t t = 0; t < kinds_[1].count(); t = end_of_run(kinds_[1], t)) ++blocks;
         row(blocks, elements_, one, elements_);
         std::uint64_t number = 1;
         for (const Kind& kind : kinds_) {
-            if (kind.count() == 0) continue;
-            row(kind.dimension, entity, kind.type, kind.count());
-            for (std::size_t i = 0; i < kind.corners.size(); i += kind.nodes) {
+            std::uint64_t end = 0;
+            for (std::uint64_t e = 0; e < kind.count(); ++e) {
+                if (e == end) { // a block begins
+                    end = end_of_run(kind, e);
+                    row(kind.dimension, &kind == kinds_ ? 1 : volume_of(e).entity, kind.type, end - e);
+                }
+                const std::size_t i = static_cast<std::size_t>(e) * kind.nodes;
                 put(number++);
                 for (std::uint32_t c = 0; c < kind.nodes; ++c) put(std::uint64_t{kind.corners[i + c]} + 1);
                 end_row();
@@ -121,8 +128,7 @@ private:
         end_section("$EndElements\n");
     }
 
-    // At most one surface and one volume, both with the box of all vertices, and without physical groups and
-    // boundaries.
+    // At most one surface, and volumes, all with the box of all vertices and without boundaries.
     void write_entities(bool surface, bool volume) {
         constexpr std::uint64_t none = 0;
         double box[6] = {};
@@ -132,10 +138,45 @@ private:
             box[3 + k] = i < 3 ? mesh_.positions[i] : std::max(box[3 + k], mesh_.positions[i]);
         }
         out_ << "$Entities\n";
-        row(none, none, std::uint64_t{surface}, std::uint64_t{volume});
-        for (const bool present : {surface, volume})
-            if (present) row(std::uint32_t{1}, box[0], box[1], box[2], box[3], box[4], box[5], none, none);
+        const std::uint64_t volumes = !volume ? 0 : regions_.empty() ? 1 : regions_.size();
+        row(none, none, std::uint64_t{surface}, volumes);
+        for (std::uint64_t v = surface ? 0 : 1; v <= volumes; ++v) {
+            put(static_cast<std::uint32_t>(v > 0 ? v : 1));
+            for (const double side : box) put(side);
+            const std::int32_t group = v > 0 && !regions_.empty() ? regions_[v - 1] : 0;
+            put(std::uint64_t{group != 0});
+            if (group != 0) put(group);
+            row(none);
+        }
         end_section("$EndEntities\n");
+    }
+
+    // ---- regions ----
+
+    struct Volume {
+        std::int32_t group;
+        std::uint32_t entity;
+    };
+    Volume volume_of(std::uint64_t tet) const {
+        if (!mesh_.tet_regions) return {1, 1};
+        const std::int32_t region = mesh_.tet_regions[tet];
+        const auto place = std::lower_bound(regions_.begin(), regions_.end(), region) - regions_.begin();
+        return {region, static_cast<std::uint32_t>(place + 1)};
+    }
+    // Where the elements of a kind that follow each other in one entity end.
+    std::uint64_t end_of_run(const Kind& kind, std::uint64_t first) const {
+        if (&kind == kinds_ || !mesh_.tet_regions) return kind.count();
+        const std::int32_t* const regions = mesh_.tet_regions;
+        const auto other = [&](std::int32_t region) { return region != regions[first]; };
+        return static_cast<std::uint64_t>(std::find_if(regions + first, regions + kind.count(), other) -
+                                          regions);
+    }
+    static std::vector<std::int32_t> sorted_regions(const vox_io_mesh_view& mesh) {
+        std::vector<std::int32_t> regions;
+        if (mesh.tet_regions) regions.assign(mesh.tet_regions, mesh.tet_regions + mesh.tet_count);
+        std::sort(regions.begin(), regions.end());
+        regions.erase(std::unique(regions.begin(), regions.end()), regions.end());
+        return regions;
     }
 
     // ---- both versions ----
@@ -161,6 +202,7 @@ private:
     const std::uint64_t vertices_ = mesh_.vertex_count;
     const Kind kinds_[2] = {{{mesh_.triangles, static_cast<std::size_t>(3 * mesh_.triangle_count)}, 3, 2, 2},
                             {{mesh_.tets, static_cast<std::size_t>(4 * mesh_.tet_count)}, 4, 4, 3}};
+    const std::vector<std::int32_t> regions_ = sorted_regions(mesh_); // each once
     const std::uint64_t elements_ = kinds_[0].count() + kinds_[1].count();
 };
 

@@ -2,6 +2,8 @@
 // have 64-bit headers.
 #include "io/formats/writers.hpp"
 
+#include <algorithm>
+
 namespace vox::io {
 namespace {
 
@@ -91,6 +93,14 @@ void write_vtu(const vox_io_mesh_view& mesh, const WrittenData& values, bool bin
     declare(values.points, vertices);
     out << "</PointData>\n<CellData>\n";
     declare(values.cells, triangles + tets);
+    const auto is_region = [](const vox_io_point_data& data) {
+        return std::string_view(data.name) == "region";
+    };
+    if (mesh.tet_regions && std::none_of(values.cells.begin(), values.cells.end(), is_region))
+        arrays.declare<std::int32_t>("Int32", "region", 1, triangles + tets, [&](const auto& put) {
+            for (std::uint64_t t = 0; t < triangles; ++t) put(0);
+            for (std::uint64_t t = 0; t < tets; ++t) put(mesh.tet_regions[t]);
+        });
     out << "</CellData>\n<Points>\n";
     arrays.declare<double>("Float64", "Points", 3, 3 * vertices, [&](const auto& put) {
         for (std::uint64_t i = 0; i < 3 * vertices; ++i) put(mesh.positions[i]);

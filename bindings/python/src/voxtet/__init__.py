@@ -8,14 +8,14 @@ from ._c import (VOX_NONE as NONE, CellSizeWarnings, CellsKept, CellsQueried, Ce
                  DepthState, GridFlags, KnownGrid, PairState, Result, Side)
 from ._library import vox as _vox
 from .errors import (BudgetError, FileError, FormatError, InternalError, InvalidArgumentError, InvalidHandleError,
-                     InvalidMeshError, InvalidStateError, LimitError, MissingFileError, NonFiniteError, OutOfMemoryError,
-                     UnsupportedError, VoxError)
+                     InvalidMeshError, InvalidStateError, LimitError, MeshWarning, MissingFileError, NonFiniteError,
+                     OutOfMemoryError, UnsupportedError, VoxError)
 from .foreign import ForeignCounts, ForeignGrid, Primitives, tune
 from .grid import ALL_CORES, Failure, Grid, step_all
 from .locate import BoxHits, ClosestHits, Located, Locator, PointHits, RayHits, locate
 from .mesh import Filter, Mesh, MeshInfo
 from .reference import Reference
-from .results import Borrowed, Constraints, Contacts, Pairs
+from .results import Borrowed, Constraints, Contacts, Jacobian, Pairs
 from .suggest import (CellSizeResult, Curve, ForeignWeights, Geometry, Rules, Terms, Timings, calibrate, measure_geometry, minimise,
                       suggest_cell_size)
 

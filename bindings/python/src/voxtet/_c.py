@@ -204,6 +204,10 @@ class IoFormat(enum.IntEnum):
     ASSIMP = 8
 
 
+class IoLoadFlags(enum.IntFlag):
+    KEEP_UNUSED = 1
+
+
 class IoSolidKind(enum.IntEnum):
     STUFFED = 0
     CUBES = 1
@@ -978,7 +982,7 @@ class vox_io_load_desc(Structure):
         ("struct_size", c_uint32),
         ("format", c_int32),
         ("mesh", c_uint32),
-        ("reserved", c_uint32),
+        ("flags", c_uint32),
         ("allocator", POINTER(vox_allocator)),
         ("progress", vox_io_load_desc_progress),
         ("progress_user", c_void_p),
@@ -1001,6 +1005,8 @@ class vox_io_mesh_view(Structure):
         ("tet_count", c_uint64),
         ("triangles", c_void_p),
         ("triangle_count", c_uint64),
+        ("tet_regions", c_void_p),
+        ("file_vertices", c_void_p),
     ]
 
 
@@ -1029,17 +1035,21 @@ class vox_io_report(Structure):
         ("bounds_min", c_double * 3),
         ("bounds_max", c_double * 3),
         ("unit_in_metres", c_double),
+        ("left_out_vertices", c_uint64),
+        ("left_out_triangles", c_uint64),
     ]
 
 dtypes["vox_io_report"] = dtype({
     "names": ["struct_size", "format", "vertices", "tets", "triangles", "skipped_elements", "second_order_tets",
         "inverted_tets", "degenerate_tets", "nearly_flat_tets", "duplicate_tets", "degenerate_triangles",
         "duplicate_vertices", "unused_vertices", "boundary_facets", "non_manifold_facets", "open_edges",
-        "misoriented_edges", "components", "volume", "bounds_min", "bounds_max", "unit_in_metres"],
+        "misoriented_edges", "components", "volume", "bounds_min", "bounds_max", "unit_in_metres", "left_out_vertices",
+        "left_out_triangles"],
     "formats": ["u4", "i4", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8",
-        "u8", "u8", "f8", ("f8", (3,)), ("f8", (3,)), "f8"],
-    "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80, 88, 96, 104, 112, 120, 128, 136, 144, 152, 176, 200],
-    "itemsize": 208})
+        "u8", "u8", "f8", ("f8", (3,)), ("f8", (3,)), "f8", "u8", "u8"],
+    "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80, 88, 96, 104, 112, 120, 128, 136, 144, 152, 176, 200, 208,
+        216],
+    "itemsize": 224})
 
 
 vox_io_tetrahedralize_desc_progress = CFUNCTYPE(c_int32, c_double, c_void_p)

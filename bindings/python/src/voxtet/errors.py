@@ -2,6 +2,12 @@
 
 from __future__ import annotations
 
+import os
+import sys
+import warnings
+from types import FrameType
+from typing import Optional
+
 from . import _c
 
 
@@ -66,9 +72,13 @@ class UnsupportedError(VoxError, NotImplementedError):
 
 
 class FileError(VoxError, OSError):
-    """A file cannot be opened, read or written; `errno` and `filename` where they are known."""
+    """A file cannot be opened, read or written; `errno` and `filename` where they are known, `strerror` and the text are the
+    library's."""
 
     code = _c.Result.ERROR_FILE
+
+    def __str__(self) -> str:  # OSError's would be without the text
+        return str(self.args[0]) if self.args else super().__str__()
 
 
 class MissingFileError(FileError, FileNotFoundError):
@@ -83,6 +93,19 @@ class FormatError(VoxError, ValueError):
 
 class InternalError(VoxError, RuntimeError):
     """A defect of the library: please report it."""
+
+
+class MeshWarning(UserWarning):
+    """What is odd about a mesh that was loaded, or what of it was left out; in `MeshData.warnings`, too."""
+
+
+def warn(text: str) -> None:
+    """A MeshWarning at the line of the program that called into this package."""
+    here = os.path.dirname(os.path.abspath(__file__))
+    level, frame = 2, sys._getframe(1)  # type: tuple[int, Optional[FrameType]]
+    while frame is not None and os.path.dirname(os.path.abspath(frame.f_code.co_filename)) == here:
+        level, frame = level + 1, frame.f_back
+    warnings.warn(text, MeshWarning, stacklevel=level)
 
 
 _CLASSES: dict[int, type[VoxError]] = {kind.code: kind for kind in (

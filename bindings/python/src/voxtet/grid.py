@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import _thread
 import ctypes
+import html
 import logging
 import threading
 import weakref
@@ -13,9 +14,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _c, results
+from ._interop import body_of, is_mesh
 from ._arguments import U32, Rows, integer, real, switch
 from ._library import Handle, described, sized, vox
-from .errors import InvalidArgumentError, InvalidHandleError, InvalidStateError
+from .errors import InvalidArgumentError, InvalidHandleError, InvalidStateError, VoxError
 from .mesh import Filter, Mesh, Topology
 from .reference import Reference, pointer_to
 from .results import Borrowed, Exports, Results, copy_of, hits_of
@@ -124,7 +126,10 @@ class Grid(Results):
 
     def __init__(self, cell_size: float = 0.0, *, workers: int = 1, reference: Optional[Reference] = None, byte_budget: int = 0,
                  constraints: bool = False, edges: bool = False, skip_bad_bodies: bool = False, margin: float = 0.0,
-                 log: Optional[Log] = None) -> None:
+                 log: Optional[Log] = None, **unknown: Any) -> None:
+        for name in unknown:
+            threads = "; the threads of a step are `workers`" if name in ("threads", "num_threads", "n_jobs", "thread_count") else ""
+            raise TypeError(f"Grid() has no argument {name!r}{threads}")
         desc = described(_c.vox_grid_desc)
         desc.cell_size = real(cell_size, "cell_size")
         desc.reference = pointer_to(reference)
@@ -196,6 +201,18 @@ class Grid(Results):
         if self._pointer is None:
             return "<voxtet.Grid, closed>"
         return f"<voxtet.Grid of {len(self)} meshes>"
+
+    def _repr_html_(self) -> str:
+        """For notebooks: the meshes by their tags."""
+        if self._pointer is None:
+            return html.escape(repr(self))
+        columns = ("mesh", "tag", "vertices", "tets", "")
+        rows = []
+        for mesh in self.meshes[:results.SHOWN]:
+            info = mesh.info
+            rows.append((mesh.id, "" if mesh.tag is None else repr(mesh.tag), info.vertex_count, info.enabled_tet_count,
+                         "" if info.enabled else "disabled"))
+        return results.html_table(repr(self), columns, rows)
 
     def clear(self) -> None:
         """Removes all meshes and contacts, and keeps the settings."""
@@ -303,7 +320,8 @@ class Grid(Results):
 
     def add(self, positions: Any, tets: Optional[ArrayLike] = None, *, vertex_count: Optional[int] = None,
             copy: bool = False, tag: Any = None, user_data: int = 0, filter: Optional[Filter] = None,
-            self_collision: bool = False, rest_positions: Any = None, borrow_tets: bool = False) -> Mesh:
+            self_collision: bool = False, rest_positions: Any = None, borrow_tets: bool = False,
+            fill: Optional[float] = None) -> Mesh:
         """Adds a mesh, which takes part from the next step on.
 
         positions: float32 or float64, (n, 3), in rows or whole columns with any strides; anything else raises. They are
@@ -314,7 +332,16 @@ class Grid(Results):
         collide with the tetrahedra of others.
         tag: any object, for `mesh.tag`. user_data: a number that pairs and constraints repeat.
         rest_positions: for `Filter.self_rest_distance`, copied.
+
+        In place of positions and tets, a mesh: of voxtet.io, pyvista, meshio or trimesh. It is copied, without vertices that
+        belong to no element, and moved through `mesh.positions`. The vertices of a surface collide, but it has no inside,
+        unless `fill` fills it with tetrahedra; that is the edge of a lattice cell, or 0 for a fiftieth of the longest side.
         """
+        if tets is None and not isinstance(positions, np.ndarray) and is_mesh(positions):
+            positions, tets = _filled(positions, fill)
+            copy = True
+        elif fill is not None:
+            raise InvalidArgumentError("fill is for meshes with triangles, not for arrays")
         new = Topology(positions, tets, vertex_count, copy, rest_positions, borrow_tets)
         new.desc.user_data = integer(user_data, "user_data")
         if filter is not None:
@@ -399,7 +426,17 @@ class Grid(Results):
         with self._lock:
             if self._borrowed or self._borrowed_constraints:
                 self._refuse("step")
-            _step(self._pointer)
+            try:
+                _step(self._pointer)
+            except VoxError as error:
+                raise self._tagged(error) from None
+
+    def _tagged(self, error: VoxError) -> VoxError:
+        """With the tag of the mesh that made a step fail, for a caller that has the lock."""
+        failure = sized(_c.vox_failure)
+        vox.vox_grid_get_failure(self._pointer, 0, failure)
+        tag = self._tags.get(failure.body)
+        return error if tag is None else type(error)(f"{error}; its tag is {tag!r}")
 
     def borrowed(self) -> Borrowed:
         """The results without a copy: `with grid.borrowed() as results: results.contacts`. See Borrowed."""
@@ -512,6 +549,16 @@ class Grid(Results):
 
     def __reduce__(self) -> Any:
         return _restored, (type(self), self.snapshot(), dict(self._settings), dict(self._tags))
+
+
+def _filled(mesh: Any, cell: Optional[float]) -> tuple[Any, Any]:
+    """Positions and tets of a mesh; of a surface, also those that fill it, if there is a cell size."""
+    positions, tets = body_of(mesh)
+    if tets is None and cell is not None:
+        from .io import tetrahedralize
+        filled = tetrahedralize(mesh, cell)
+        return filled.positions, filled.tets
+    return positions, tets
 
 
 def _changed(flags: int, **wanted: Optional[bool]) -> int:

@@ -12,6 +12,7 @@ True
 from __future__ import annotations
 
 import ctypes
+import html
 import os
 import sys
 from typing import TYPE_CHECKING, Any, Callable, Mapping, NamedTuple, Optional, Union
@@ -20,10 +21,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _c
-from ._arguments import U32, choice, copied_rows, indices, integer, real
-from ._interop import arrays_of, triangles_of
+from ._arguments import U32, choice, copied_rows, indices, integer, real, switch
+from ._interop import Parts, arrays_of, is_mesh, parts_of, triangles_of
 from ._library import Handle, Relay, described, load_part, sized, values_of
-from .errors import FileError, InvalidArgumentError, MissingFileError
+from .errors import FileError, InvalidArgumentError, MissingFileError, warn
+from .grid import Grid
 from .results import borrow_of
 
 if TYPE_CHECKING:
@@ -34,6 +36,7 @@ if TYPE_CHECKING:
 _io = load_part("vox_io")
 _DOUBLE = np.dtype(np.float64)
 _INDEX = np.dtype(np.uint32)
+_REGION = np.dtype(np.int32)
 
 Path = Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]
 Progress = Callable[[float], Any]
@@ -64,6 +67,8 @@ class Report(NamedTuple):
     bounds_min: tuple[float, float, float]
     bounds_max: tuple[float, float, float]
     unit_in_metres: float
+    left_out_vertices: int
+    left_out_triangles: int
 
 
 class Quality(NamedTuple):
@@ -83,14 +88,21 @@ class Quality(NamedTuple):
 
 class MeshData:
     """A mesh in memory that never changes: `positions` (n, 3) of doubles, `tets` (m, 4), `triangles` (k, 3). The arrays are
-    the library's memory, read-only, and live as long as anybody has them. A body that moves needs a copy:
-    `grid.add(data.positions.copy(), data.tets)`."""
+    the library's memory, read-only, and live as long as anybody has them. A body that moves needs a copy, which
+    `grid.add(data)` makes.
+
+    `regions`: a number for each tet (physical groups of Gmsh, references of Medit, cell data of VTK), or None.
+    `file_vertices`: for each vertex its number in the file or mesh that it comes from, from 0, where vertices were left out;
+    else None. Values for the vertices go back by `of_file[data.file_vertices] = values`."""
 
     positions: NDArray[np.float64]
     tets: NDArray[np.uint32]
     triangles: NDArray[np.uint32]
+    regions: Optional[NDArray[np.int32]]
+    file_vertices: Optional[NDArray[np.uint32]]
 
-    def __init__(self, positions: ArrayLike, tets: Optional[ArrayLike] = None, triangles: Optional[ArrayLike] = None) -> None:
+    def __init__(self, positions: ArrayLike, tets: Optional[ArrayLike] = None, triangles: Optional[ArrayLike] = None,
+                 regions: Optional[ArrayLike] = None, file_vertices: Optional[ArrayLike] = None) -> None:
         found = copied_rows(positions, "positions").array
         assert found is not None
         points = np.ascontiguousarray(found, np.float64)
@@ -100,6 +112,10 @@ class MeshData:
         view.tets, view.tet_count = corners.ctypes.data, len(corners)
         facets = indices([] if triangles is None else triangles, "triangles", 3)
         view.triangles, view.triangle_count = facets.ctypes.data, len(facets)
+        of_tets = _column(regions, "regions", len(corners), _REGION)
+        of_vertices = _column(file_vertices, "file_vertices", len(points), _INDEX)
+        view.tet_regions = None if of_tets is None else of_tets.ctypes.data
+        view.file_vertices = None if of_vertices is None else of_vertices.ctypes.data
         pointer = ctypes.c_void_p()
         _io.vox_io_mesh_create(view, pointer)
         self._hold(pointer)
@@ -119,6 +135,11 @@ class MeshData:
                                                    ("triangles", view.triangles, view.triangle_count, 3, _INDEX)):
             flat = borrow_of(address, count * width, np.ndarray, dtype, self._handle)
             setattr(self, name, flat.reshape(-1, width))
+        self.regions = self.file_vertices = None
+        if view.tet_regions:
+            self.regions = borrow_of(view.tet_regions, view.tet_count, np.ndarray, _REGION, self._handle)
+        if view.file_vertices:
+            self.file_vertices = borrow_of(view.file_vertices, view.vertex_count, np.ndarray, _INDEX, self._handle)
 
     @property
     def report(self) -> Report:
@@ -142,11 +163,35 @@ class MeshData:
                 "triangles>")
 
     def __reduce__(self) -> Any:
-        return MeshData, (np.array(self.positions), np.array(self.tets), np.array(self.triangles))
+        return MeshData, tuple(None if array is None else np.array(array) for array in (
+            self.positions, self.tets, self.triangles, self.regions, self.file_vertices))
 
 
-def _load_desc(format: Union[str, _c.IoFormat], mesh_index: Optional[int]) -> Any:
+def _column(values: Optional[ArrayLike], name: str, count: int, dtype: np.dtype[Any]) -> Optional[NDArray[Any]]:
+    """One whole number for each of `count` things."""
+    if values is None:
+        return None
+    array = np.asarray(values)
+    if array.dtype.kind not in "iu" and array.size:
+        raise TypeError(f"{name} has the dtype {array.dtype}; it must hold integers")
+    if array.shape != (count,):
+        raise InvalidArgumentError(f"{name} has the shape {array.shape}; it must be ({count},)")
+    range_ = np.iinfo(dtype)
+    if array.size and not range_.min <= int(array.min()) <= int(array.max()) <= range_.max:
+        raise InvalidArgumentError(f"{name} has numbers from {array.min()} to {array.max()}; they must fit {dtype}")
+    return np.ascontiguousarray(array, dtype)
+
+
+def _said(data: MeshData, name: str) -> MeshData:
+    """A mesh that was loaded; its warnings become one of Python's."""
+    if data.warnings:
+        warn(f"{name}: {'; '.join(data.warnings)}")
+    return data
+
+
+def _load_desc(format: Union[str, _c.IoFormat], mesh_index: Optional[int], keep_unused: bool) -> Any:
     desc = described(_c.vox_io_load_desc)
+    desc.flags = _c.IoLoadFlags.KEEP_UNUSED * switch(keep_unused, "keep_unused")
     desc.format = choice(_c.IoFormat, format, "format")
     if mesh_index is not None:
         desc.mesh = 1 + integer(mesh_index, "mesh_index", 0, U32 - 1)
@@ -182,23 +227,26 @@ def _with_reason(error: FileError, path: Path, opened: str) -> FileError:
         error.errno = reason.errno
     except OSError as reason:
         error.errno = reason.errno
+    error.strerror = str(error)
     error.filename = os.fsdecode(path)
     return error
 
 
-def load(path: Path, *, format: Union[str, _c.IoFormat] = "auto", mesh_index: Optional[int] = None) -> MeshData:
+def load(path: Path, *, format: Union[str, _c.IoFormat] = "auto", mesh_index: Optional[int] = None,
+         keep_unused: bool = False) -> MeshData:
     """Reads a file: Gmsh, TetGen, Medit, Vega, VTK, VTU; surfaces: STL, OBJ, PLY, OFF, glTF. mesh_index: the one to take of a
-    scene; None joins all."""
-    desc, pointer = _load_desc(format, mesh_index), ctypes.c_void_p()
+    scene; None joins all. keep_unused: keep vertices that belong to no tetrahedron, which are left out otherwise, as they would
+    collide like all others. What is odd about the mesh is a MeshWarning."""
+    desc, pointer = _load_desc(format, mesh_index, keep_unused), ctypes.c_void_p()
     try:
         _io.vox_io_load(_bytes_of(path), desc, pointer)
     except FileError as error:
         raise _with_reason(error, path, os.fsdecode(path)) from None
-    return MeshData._of(pointer)
+    return _said(MeshData._of(pointer), os.fsdecode(path))
 
 
 def read(data: Union[bytes, Mapping[str, bytes]], name: Optional[str] = None, *, format: Union[str, _c.IoFormat] = "auto",
-         mesh_index: Optional[int] = None) -> MeshData:
+         mesh_index: Optional[int] = None, keep_unused: bool = False) -> MeshData:
     """The same from memory: the bytes of a file, whose name says the format where its content does not; or the bytes of
     several files by name (TetGen's .node and .ele)."""
     files = data if isinstance(data, Mapping) else {name: data}
@@ -207,16 +255,29 @@ def read(data: Union[bytes, Mapping[str, bytes]], name: Optional[str] = None, *,
     for source, key, array in zip(sources, files, arrays):
         source.name = None if key is None else _text(key, "a name", "surrogateescape")
         source.data, source.size = array.ctypes.data, array.size
-    desc, pointer = _load_desc(format, mesh_index), ctypes.c_void_p()
+    desc, pointer = _load_desc(format, mesh_index, keep_unused), ctypes.c_void_p()
     _io.vox_io_read(sources, len(sources), desc, pointer)
-    return MeshData._of(pointer)
+    return _said(MeshData._of(pointer), " and ".join(str(key or "a mesh in memory") for key in files))
 
 
 def _data_of(mesh: Any) -> MeshData:
     if isinstance(mesh, MeshData):
         return mesh
+    parts = parts_of(mesh)
+    if parts is not None:
+        return _of_parts(parts, keep_unused=True)
+    if is_mesh(mesh) and not hasattr(mesh, "tets"):
+        return MeshData(*_surface(mesh))
     positions, tets, _ = arrays_of(mesh)
     return MeshData(positions, tets)
+
+
+def _of_parts(parts: Parts, keep_unused: bool) -> MeshData:
+    """Of a mesh of another package. Its tets, or its triangles, must not be lost in silence."""
+    parts = parts.checked() if switch(keep_unused, "keep_unused") else parts.checked().without_unused()
+    if parts.notes:
+        warn("; ".join(parts.notes))
+    return MeshData(parts.positions, parts.tets, parts.triangles, parts.regions, parts.file_vertices)
 
 
 class _Writing:
@@ -252,9 +313,12 @@ class _Writing:
 
 def save(mesh: Any, path: Path, *, format: Union[str, _c.IoWriteFormat] = "auto", binary: bool = False,
          point_data: Optional[Mapping[str, ArrayLike]] = None, cell_data: Optional[Mapping[str, ArrayLike]] = None) -> None:
-    """Writes a mesh (MeshData, or of pyvista or meshio) as .msh or .vtu, with arrays by name: a row of 1, 3 or 9 numbers for
-    each vertex, or for each cell (the triangles, then the tets)."""
-    data = _data_of(mesh)
+    """Writes a mesh (MeshData, or of pyvista, meshio or trimesh) as .msh or .vtu, with arrays by name: a row of 1, 3 or 9
+    numbers for each vertex, or for each cell (the triangles, then the tets).
+
+    Of a grid, writes all bodies as they collide, with the id of its body for each tet (`body`), and for each vertex in how
+    many contacts it is (`contacts`) and how deep (`depth`, where the grid looked for constraints)."""
+    data, point_data, cell_data = _to_write(mesh, point_data, cell_data)
     writing = _Writing(data, format, binary, point_data, cell_data)
     try:
         _io.vox_io_write(data._handle.pointer, _bytes_of(path), writing.desc)
@@ -265,7 +329,7 @@ def save(mesh: Any, path: Path, *, format: Union[str, _c.IoWriteFormat] = "auto"
 def write(mesh: Any, format: Union[str, _c.IoWriteFormat], *, binary: bool = False,
           point_data: Optional[Mapping[str, ArrayLike]] = None, cell_data: Optional[Mapping[str, ArrayLike]] = None) -> bytes:
     """The bytes that `save` would write, as "msh_22", "msh_41" or "vtu"."""
-    data = _data_of(mesh)
+    data, point_data, cell_data = _to_write(mesh, point_data, cell_data)
     writing = _Writing(data, format, binary, point_data, cell_data)
     parts: list[bytes] = []
 
@@ -297,6 +361,64 @@ def tetrahedralize(surface: Any, cell: float = 0.0, *, kind: str = "stuffed", ma
         _io.vox_io_tetrahedralize(data._handle.pointer, desc, pointer)
         made = MeshData._of(pointer)
     return made
+
+
+def _to_write(mesh: Any, point_data: Optional[Mapping[str, ArrayLike]],
+              cell_data: Optional[Mapping[str, ArrayLike]]) -> tuple[MeshData, Any, Any]:
+    """A mesh with its arrays; of a grid, all bodies in one mesh, with what the last step found."""
+    if not isinstance(mesh, Grid):
+        return _data_of(mesh), point_data, cell_data
+    grid = mesh
+    meshes = [mesh for mesh in grid if mesh.enabled]
+    bodies = [mesh._as_it_collides()[:2] for mesh in meshes]
+    counts = [0 if positions is None else len(positions) for positions, _ in bodies]
+    starts = np.concatenate([[0], np.cumsum(counts)]).astype(np.int64)
+    first = {mesh.id: start for mesh, start in zip(meshes, starts.tolist())}
+    tets = [found.astype(np.int64) + start for (_, found), start in zip(bodies, starts)]
+    body = np.repeat([mesh.id for mesh in meshes], [len(found) for found in tets])
+    touching, depth = np.zeros(starts[-1]), np.zeros(starts[-1])
+
+    def rows(ids: Any, vertices: Any) -> Any:
+        known = np.isin(ids, list(first))
+        return known, np.array([first[i] for i in ids[known].tolist()], np.int64) + vertices[known]
+
+    contacts = grid.contacts
+    np.add.at(touching, rows(contacts.body_a, contacts.vertex)[1], 1)
+    points = {"contacts": touching}
+    if grid.flags & _c.GridFlags.CONSTRAINTS:
+        inside = grid.constraints
+        inside = inside[(inside.kind == _c.ConstraintKind.INSIDE) & (inside.gap < 0)]
+        known, at = rows(inside.body_a, inside.vertices[:, 0])
+        np.maximum.at(depth, at, -inside.gap[known])
+        points["depth"] = depth
+    positions = [np.asarray(p, np.float64) for p, _ in bodies if p is not None]
+    data = MeshData(np.concatenate([np.empty((0, 3)), *positions]), np.concatenate([np.empty((0, 4), np.int64), *tets]))
+    return data, {**points, **(point_data or {})}, {"body": body, **(cell_data or {})}
+
+
+class Series:
+    """A series of .vtu files for ParaView, with the .pvd that names them: `series.add(grid, time)` writes the next one, beside
+    it (`run.pvd`: `run_0000.vtu`, ...), and the .pvd anew."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = os.fsdecode(path)
+        if not self._path.lower().endswith(".pvd"):
+            raise InvalidArgumentError(f"{self._path}: expected a name that ends with .pvd")
+        self._entries: list[str] = []
+
+    def add(self, mesh: Any, time: Optional[float] = None, **options: Any) -> str:
+        """As `save`, with its options. time: by default the number of the file. Returns the path of the new file."""
+        number = len(self._entries)
+        path = f"{self._path[:-4]}_{number:04}.vtu"
+        save(mesh, path, **options)
+        name = html.escape(os.path.basename(path))
+        at = float(number) if time is None else real(time, "time")
+        self._entries.append(f'<DataSet timestep="{at!r}" file="{name}"/>\n')
+        text = ('<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1">\n<Collection>\n'
+                f'{"".join(self._entries)}</Collection>\n</VTKFile>\n')
+        with open(self._path, "w", encoding="utf-8", newline="\n") as file:
+            file.write(text)
+        return path
 
 
 def _surface(mesh: Any) -> tuple[Any, None, Any]:
@@ -353,40 +475,48 @@ def make_box(size_x: float, size_y: float, size_z: float, cell: float) -> MeshDa
 # ---- other packages -------------------------------------------------------------------------------
 
 
-def from_meshio(mesh: meshio.Mesh) -> MeshData:
-    """The tetrahedra and triangles of a mesh of meshio."""
-    positions, tets, _ = arrays_of(mesh)
-    return MeshData(positions, tets, mesh.cells_dict.get("triangle"))
+def from_meshio(mesh: meshio.Mesh, *, keep_unused: bool = False) -> MeshData:
+    """The tetrahedra and triangles of a mesh of meshio, of any order by their corners, with regions where its cell data has
+    some. keep_unused: as for `load`. A mesh without both is refused."""
+    parts = parts_of(mesh)
+    if parts is None:
+        raise TypeError(f"a mesh of type {type(mesh).__name__} is none of meshio")
+    return _of_parts(parts, keep_unused)
 
 
 def to_meshio(data: MeshData) -> meshio.Mesh:
-    """For `meshio.write`."""
+    """For `meshio.write`. Regions become the cell data "region"."""
     import meshio
-    cells = [(name, array.astype(np.int64)) for name, array in (("triangle", data.triangles), ("tetra", data.tets))
-             if len(array)]
-    return meshio.Mesh(np.array(data.positions), cells)
+    blocks = [(name, array.astype(np.int64)) for name, array in (("triangle", data.triangles), ("tetra", data.tets))
+              if len(array)]
+    regions = {} if data.regions is None else {"region": [
+        np.array(data.regions) if name == "tetra" else np.zeros(len(array), np.int32) for name, array in blocks]}
+    return meshio.Mesh(np.array(data.positions), blocks, cell_data=regions)
 
 
-def from_pyvista(mesh: Union[pyvista.UnstructuredGrid, pyvista.PolyData]) -> MeshData:
-    """The tetrahedra of an UnstructuredGrid, or the triangles of a PolyData."""
-    if hasattr(mesh, "celltypes"):
-        positions, tets, _ = arrays_of(mesh)
-        return MeshData(positions, tets)
-    return MeshData(*_surface(mesh))
+def from_pyvista(mesh: Union[pyvista.UnstructuredGrid, pyvista.PolyData], *, keep_unused: bool = False) -> MeshData:
+    """The tetrahedra and triangles of an UnstructuredGrid, as from_meshio, or the triangles of a PolyData."""
+    parts = parts_of(mesh)
+    return MeshData(*_surface(mesh)) if parts is None else _of_parts(parts, keep_unused)
 
 
 def to_pyvista(data: Any) -> Union[pyvista.UnstructuredGrid, pyvista.PolyData]:
-    """An UnstructuredGrid of the tetrahedra, or a PolyData of the triangles if there are none."""
+    """An UnstructuredGrid of the tetrahedra, with its cell data "region" where there are regions, or a PolyData of the
+    triangles if there are none."""
     import pyvista
-    positions, tets, _ = arrays_of(data)
-    if len(tets):
-        return pyvista.UnstructuredGrid({10: np.asarray(tets, np.int64)}, np.array(positions))
+    data = _data_of(data)
+    positions = data.positions
+    if len(data.tets):
+        made = pyvista.UnstructuredGrid({10: np.asarray(data.tets, np.int64)}, np.array(positions))
+        if data.regions is not None:
+            made.cell_data["region"] = np.array(data.regions)
+        return made
     faces = np.insert(np.asarray(data.triangles, np.int64), 0, 3, axis=1)
     return pyvista.PolyData(np.array(positions), faces.ravel())
 
 
-def from_trimesh(mesh: trimesh.Trimesh) -> MeshData:
-    """The surface, for `tetrahedralize`."""
+def from_trimesh(mesh: Union[trimesh.Trimesh, trimesh.Scene]) -> MeshData:
+    """The surface, for `tetrahedralize`; of a scene, all of them joined, where its graph places them."""
     return MeshData(*_surface(mesh))
 
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import ctypes
+import html
 import sys
 import weakref
-from typing import TYPE_CHECKING, Any, Callable, NamedTuple, Optional, Union
+from typing import TYPE_CHECKING, Any, Callable, Iterable, Mapping, NamedTuple, Optional, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,11 +14,23 @@ from numpy.typing import NDArray
 from . import _c
 from ._arguments import choice, integer
 from ._library import described, vox
-from .errors import InvalidStateError
+from .errors import InvalidArgumentError, InvalidHandleError, InvalidStateError
 
 if TYPE_CHECKING:
     from .grid import Grid
     from .mesh import Mesh
+
+
+SHOWN = 10  # rows in a notebook
+
+
+def html_table(title: str, columns: Iterable[Any], rows: Iterable[Iterable[Any]]) -> str:
+    """A table with a title."""
+    def line(tag: str, cells: Iterable[Any]) -> str:
+        return "<tr>" + "".join(f"<{tag}>{html.escape(str(cell))}</{tag}>" for cell in cells) + "</tr>"
+
+    body = "".join(line("td", row) for row in rows)
+    return f"<table><caption>{html.escape(title)}</caption>{line('th', columns)}{body}</table>"
 
 
 class Records(np.ndarray[Any, Any]):
@@ -34,6 +47,24 @@ class Records(np.ndarray[Any, Any]):
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *(self.dtype.names or ())]
+
+    def __repr__(self) -> str:
+        if self.ndim != 1 or self.dtype.names is None:
+            return super().__repr__()
+        return f"<voxtet.{type(self).__name__}: {len(self)}, each with {', '.join(self.dtype.names)}>"
+
+    def _repr_html_(self) -> str:
+        """For notebooks: the first ones, with kinds and states by their names."""
+        if self.ndim != 1 or self.dtype.names is None:
+            return html.escape(super().__repr__())
+        names = {"kind": _c.ConstraintKind, "side": _c.Side,
+                 "state": _c.PairState if isinstance(self, Pairs) else _c.DepthState}
+
+        def cell(name: str, value: Any) -> str:
+            return names[name](int(value)).name if name in names else str(value)
+
+        rows = [[cell(name, record[name]) for name in self.dtype.names] for record in self[:SHOWN]]
+        return html_table(f"{len(self)} {type(self).__name__}", self.dtype.names, rows)
 
 
 def record_type(struct: str) -> np.dtype[Any]:
@@ -87,6 +118,39 @@ class Constraints(Records):
     user_data_b: NDArray[np.uint64]
     pair: NDArray[np.uint32]
     previous: NDArray[np.uint32]
+
+    def rows(self, offsets: Mapping[Any, int], columns: Optional[int] = None) -> Jacobian:
+        """The derivative of `gap` by all coordinates, a row for each constraint. offsets: for each body, by its id or as a Mesh,
+        the number of its first vertex among all; coordinate k of vertex v has column 3 * v + k. columns: how many there are;
+        None: up to the last one in use.
+
+        `scipy.sparse.csr_array(rows[:3], shape=rows.shape)` is the matrix, and `matrix @ x + constraints.offset` the gaps."""
+        first_of = {int(body): integer(first, "offsets") for body, first in offsets.items()}
+        of_a = np.arange(self.vertices.shape[1]) < self.count_a[:, None]
+        bodies = np.where(of_a, self.body_a[:, None], self.body_b[:, None])
+        used = np.arange(self.vertices.shape[1]) < self.count[:, None]
+        known = np.unique(bodies)
+        for body in known.tolist():
+            if body not in first_of:
+                raise InvalidHandleError(f"offsets has no body {body}")
+        first = np.array([first_of[body] for body in known.tolist()], np.int64)[np.searchsorted(known, bodies)]
+        columns_ = (3 * (first + self.vertices)[:, :, None] + np.arange(3))[used].ravel()
+        values = (self.weights[:, :, None] * self.normal[:, None])[used].ravel()
+        starts = np.concatenate([[0], np.cumsum(3 * self.count.astype(np.int64))])
+        least = int(columns_.max()) + 1 if columns_.size else 0
+        width = least if columns is None else integer(columns, "columns")
+        if width < least:
+            raise InvalidArgumentError(f"columns is {width}, but column {least - 1} is in use")
+        return Jacobian(values, columns_, starts, (len(self), width))
+
+
+class Jacobian(NamedTuple):
+    """Rows of a sparse matrix (CSR): the values of row i are data[indptr[i]:indptr[i + 1]], in the columns `indices`."""
+
+    data: NDArray[np.float64]
+    indices: NDArray[np.int64]
+    indptr: NDArray[np.int64]
+    shape: tuple[int, int]
 
 
 class View(NamedTuple):

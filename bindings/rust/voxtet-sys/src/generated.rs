@@ -308,6 +308,12 @@ pub const VOX_IO_FORMAT_SURFACE: vox_io_format = 7;
 /// (docs/file-formats.md), answers UNSUPPORTED.
 pub const VOX_IO_FORMAT_ASSIMP: vox_io_format = 8;
 
+/// Flags of a vox_io_load_desc.
+pub type vox_io_load_flags = u32;
+/// Keep vertices that belong to no tet, and triangles that name one. A vertex then has the file's number. In a grid
+/// such vertices collide like all others.
+pub const VOX_IO_LOAD_KEEP_UNUSED: vox_io_load_flags = 1;
+
 pub type vox_io_solid_kind = i32;
 /// Isosurface stuffing: the boundary follows the surface, and dihedral angles are between 10.7 and 164.8 degrees.
 pub const VOX_IO_SOLID_STUFFED: vox_io_solid_kind = 0;
@@ -1272,8 +1278,8 @@ pub struct vox_io_load_desc {
     pub format: vox_io_format,
     /// which mesh of a scene file to take, from 1; 0: all, joined
     pub mesh: u32,
-    /// 0
-    pub reserved: u32,
+    /// vox_io_load_flags
+    pub flags: u32,
     /// Where the arrays of the mesh live until vox_io_mesh_destroy. Copied; null: the C++ runtime's heap. Other memory
     /// that reading needs is taken from that heap and released at the end of the call.
     pub allocator: *const vox_allocator,
@@ -1305,6 +1311,13 @@ pub struct vox_io_mesh_view {
     /// those of the file
     pub triangles: *const u32,
     pub triangle_count: u64,
+    /// A number for each tet, where the file has some that are not 0; else null. Physical groups of Gmsh (of several,
+    /// the first), references of Medit, the last attribute of TetGen; of VTK the cell array "region", "gmsh:physical",
+    /// "medit:ref", "material" or the like, else the first that has one whole number for each cell.
+    pub tet_regions: *const i32,
+    /// For each vertex its number in the file, counted from 0 in the file's order, ascending; null if vertices were not
+    /// left out. Values for vertex v belong to vertex file_vertices[v] of the file.
+    pub file_vertices: *const u32,
 }
 
 /// What was read, what was left out, and what is odd about the mesh. A "surface" is a mesh without tets.
@@ -1353,6 +1366,10 @@ pub struct vox_io_report {
     pub bounds_max: [f64; 3],
     /// length of the file's unit; 0 if the file does not state it
     pub unit_in_metres: f64,
+    /// vertices of the file that belong to no tet and are not in the mesh
+    pub left_out_vertices: u64,
+    /// triangles of the file that name one of them and are not in the mesh
+    pub left_out_triangles: u64,
 }
 
 #[repr(C)]
@@ -2114,8 +2131,8 @@ extern "C" {
     /// docs/files.md has a whole program. Errors: INVALID_ARGUMENT (null, or a struct_size that does not reach to
     /// tet_count).
     pub fn vox_io_mesh_describe(mesh: *const vox_io_mesh, desc: *mut vox_mesh_desc) -> vox_result;
-    /// Makes a mesh from arrays (copied) on the C++ runtime's heap. Errors: INVALID_ARGUMENT, INVALID_MESH, NON_FINITE,
-    /// LIMIT (more than VOX_MAX_VERTICES or VOX_MAX_TETS), OUT_OF_MEMORY.
+    /// Makes a mesh from arrays (copied) on the C++ runtime's heap. Nothing is left out. Errors: INVALID_ARGUMENT,
+    /// INVALID_MESH, NON_FINITE, LIMIT (more than VOX_MAX_VERTICES or VOX_MAX_TETS), OUT_OF_MEMORY.
     pub fn vox_io_mesh_create(
         arrays: *const vox_io_mesh_view,
         out_mesh: *mut *mut vox_io_mesh,
@@ -2151,9 +2168,10 @@ extern "C" {
         surface: *const vox_io_mesh,
         out_quality: *mut vox_io_quality,
     ) -> vox_result;
-    /// Writes vertices, triangles and tets, in the mesh's order. desc null: defaults. An existing file at `path` is
-    /// replaced at the end, and only if everything was written. Errors: FILE, INVALID_ARGUMENT (names the field),
-    /// NON_FINITE, UNSUPPORTED (the extension), LIMIT (more elements than .msh 2.2 can number), OUT_OF_MEMORY.
+    /// Writes vertices, triangles and tets, in the mesh's order, and the tets' regions: as physical groups in .msh, as
+    /// the cell array "region" in .vtu, unless cell_data has one of that name. desc null: defaults. An existing file at
+    /// `path` is replaced at the end, and only if everything was written. Errors: FILE, INVALID_ARGUMENT (names the
+    /// field), NON_FINITE, UNSUPPORTED (the extension), LIMIT (more elements than .msh 2.2 can number), OUT_OF_MEMORY.
     pub fn vox_io_write(
         mesh: *const vox_io_mesh,
         path: *const c_char,
@@ -2381,17 +2399,19 @@ layouts! {
     vox_impact: size [16, 16], alignment [8, 8], { a: [0, 0], b: [4, 4], time: [8, 8] }
     vox_impact_view: size [16, 16], alignment [8, 8], { data: [0, 0], count: [8, 8] }
     vox_io_load_desc: size [40, 28], alignment [8, 4], { struct_size: [0, 0], format: [4, 4], mesh: [8, 8],
-        reserved: [12, 12], allocator: [16, 16], progress: [24, 20], progress_user: [32, 24] }
+        flags: [12, 12], allocator: [16, 16], progress: [24, 20], progress_user: [32, 24] }
     vox_io_source: size [24, 12], alignment [8, 4], { name: [0, 0], data: [8, 4], size: [16, 8] }
-    vox_io_mesh_view: size [48, 48], alignment [8, 8], { positions: [0, 0], vertex_count: [8, 8], tets: [16, 16],
-        tet_count: [24, 24], triangles: [32, 32], triangle_count: [40, 40] }
-    vox_io_report: size [208, 208], alignment [8, 8], { struct_size: [0, 0], format: [4, 4], vertices: [8, 8],
+    vox_io_mesh_view: size [64, 56], alignment [8, 8], { positions: [0, 0], vertex_count: [8, 8], tets: [16, 16],
+        tet_count: [24, 24], triangles: [32, 32], triangle_count: [40, 40], tet_regions: [48, 48],
+        file_vertices: [56, 52] }
+    vox_io_report: size [224, 224], alignment [8, 8], { struct_size: [0, 0], format: [4, 4], vertices: [8, 8],
         tets: [16, 16], triangles: [24, 24], skipped_elements: [32, 32], second_order_tets: [40, 40],
         inverted_tets: [48, 48], degenerate_tets: [56, 56], nearly_flat_tets: [64, 64], duplicate_tets: [72, 72],
         degenerate_triangles: [80, 80], duplicate_vertices: [88, 88], unused_vertices: [96, 96],
         boundary_facets: [104, 104], non_manifold_facets: [112, 112], open_edges: [120, 120],
         misoriented_edges: [128, 128], components: [136, 136], volume: [144, 144], bounds_min: [152, 152],
-        bounds_max: [176, 176], unit_in_metres: [200, 200] }
+        bounds_max: [176, 176], unit_in_metres: [200, 200], left_out_vertices: [208, 208],
+        left_out_triangles: [216, 216] }
     vox_io_tetrahedralize_desc: size [64, 56], alignment [8, 8], { struct_size: [0, 0], kind: [4, 4], cell: [8, 8],
         max_tets: [16, 16], max_distance: [24, 24], coarsen: [32, 32], reserved: [36, 36], progress: [40, 40],
         progress_user: [48, 44], allocator: [56, 48] }

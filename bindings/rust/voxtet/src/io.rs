@@ -93,6 +93,8 @@ impl MeshFile {
             tet_count: tets.len() as u64,
             triangles: pointer(triangles).cast(),
             triangle_count: triangles.len() as u64,
+            tet_regions: null(),
+            file_vertices: null(),
         };
         made(|out| unsafe { sys::vox_io_mesh_create(&view, out) })
     }
@@ -187,6 +189,18 @@ impl MeshFile {
     pub fn triangles(&self) -> &[[u32; 3]] {
         let view = self.view();
         unsafe { records(view.triangles.cast(), view.triangle_count) }
+    }
+
+    /// A number for each tetrahedron, where the file has some that are not 0.
+    pub fn tet_regions(&self) -> Option<&[i32]> {
+        let view = self.view();
+        (!view.tet_regions.is_null()).then(|| unsafe { records(view.tet_regions, view.tet_count) })
+    }
+
+    /// For each vertex its number in the file, where vertices that belong to no tetrahedron were left out.
+    pub fn file_vertices(&self) -> Option<&[u32]> {
+        let view = self.view();
+        (!view.file_vertices.is_null()).then(|| unsafe { records(view.file_vertices, view.vertex_count) })
     }
 
     /// What was read, and what is odd about it.
