@@ -31,15 +31,16 @@ typedef enum vox_io_format {
     VOX_IO_FORMAT_TETGEN = 2,  /* .node with .ele */
     VOX_IO_FORMAT_MEDIT = 3,   /* .mesh, ASCII */
     VOX_IO_FORMAT_VEGA = 4,    /* .veg */
-    VOX_IO_FORMAT_VTK = 5,     /* legacy .vtk, 2.0 to 5.1; ASCII and binary */
-    /* XML .vtu: ASCII, base64, appended; raw or zlib. Reading it is UNSUPPORTED in a library that is built without
-     * pugixml and zlib (docs/files.md). */
+    VOX_IO_FORMAT_VTK = 5,     /* legacy .vtk, 2.0 to 5.1; ASCII and binary; tets, or POLYDATA: triangles, no tets */
+    /* XML .vtu, and .vtp: triangles, no tets; ASCII, base64, appended; raw, zlib, LZ4 or LZMA. Reading it is UNSUPPORTED
+     * in a library that is built without pugixml and zlib, or for LZMA without liblzma (docs/files.md). */
     VOX_IO_FORMAT_VTU = 6,
     VOX_IO_FORMAT_SURFACE = 7, /* .stl, .obj, .ply, .off, .gltf, .glb; triangles, no tets */
     /* Any other surface that assimp reads. assimp is not made for damaged files: they can end the process, keep it
      * busy without end and fill its memory. So AUTO never chooses it, and a library that is built without it, as is the
      * default (docs/files.md), answers UNSUPPORTED. */
-    VOX_IO_FORMAT_ASSIMP = 8
+    VOX_IO_FORMAT_ASSIMP = 8,
+    VOX_IO_FORMAT_ABAQUS = 9 /* .inp; also of CalculiX */
 } vox_io_format;
 
 typedef struct vox_io_load_desc {

@@ -296,10 +296,10 @@ pub const VOX_IO_FORMAT_TETGEN: vox_io_format = 2;
 pub const VOX_IO_FORMAT_MEDIT: vox_io_format = 3;
 /// .veg
 pub const VOX_IO_FORMAT_VEGA: vox_io_format = 4;
-/// legacy .vtk, 2.0 to 5.1; ASCII and binary
+/// legacy .vtk, 2.0 to 5.1; ASCII and binary; tets, or POLYDATA: triangles, no tets
 pub const VOX_IO_FORMAT_VTK: vox_io_format = 5;
-/// XML .vtu: ASCII, base64, appended; raw or zlib. Reading it is UNSUPPORTED in a library that is built without pugixml
-/// and zlib (docs/files.md).
+/// XML .vtu, and .vtp: triangles, no tets; ASCII, base64, appended; raw, zlib, LZ4 or LZMA. Reading it is UNSUPPORTED
+/// in a library that is built without pugixml and zlib, or for LZMA without liblzma (docs/files.md).
 pub const VOX_IO_FORMAT_VTU: vox_io_format = 6;
 /// .stl, .obj, .ply, .off, .gltf, .glb; triangles, no tets
 pub const VOX_IO_FORMAT_SURFACE: vox_io_format = 7;
@@ -307,6 +307,8 @@ pub const VOX_IO_FORMAT_SURFACE: vox_io_format = 7;
 /// without end and fill its memory. So AUTO never chooses it, and a library that is built without it, as is the default
 /// (docs/files.md), answers UNSUPPORTED.
 pub const VOX_IO_FORMAT_ASSIMP: vox_io_format = 8;
+/// .inp; also of CalculiX
+pub const VOX_IO_FORMAT_ABAQUS: vox_io_format = 9;
 
 pub type vox_io_solid_kind = i32;
 /// Isosurface stuffing: the boundary follows the surface, and dihedral angles are between 10.7 and 164.8 degrees.
