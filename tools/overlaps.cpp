@@ -85,10 +85,11 @@ private:
         }
     }
 
-    // The triangles of one edge, sorted by their angle. Rounding may confuse those of nearly the same angle: these
-    // are sorted again, exactly.
+    // The triangles of one edge, sorted by their angle. Rounding may confuse those of nearly the same angle:
+    // these are sorted again, exactly.
     void find_folds(WingIterator first, WingIterator last) {
-        last = std::remove_if(first, last, [this, x = Vector{}](Wing& wing) mutable { return !set_angle(wing, x); });
+        last = std::remove_if(first, last,
+                              [this, x = Vector{}](Wing& wing) mutable { return !set_angle(wing, x); });
         std::sort(first, last, [](const Wing& x, const Wing& y) { return x.angle < y.angle; });
         constexpr double near = 1e-3, circle = 2 * std::numbers::pi;
         // The circle is cut where there is a gap.
@@ -99,7 +100,9 @@ private:
             std::rotate(first, gap + 1, last);
         }
         for (auto begin = first, end = first; begin != last; begin = end) {
-            for (++end; end != last && end->angle - (end - 1)->angle <= near && end->angle - begin->angle < 1;) ++end;
+            for (++end;
+                 end != last && end->angle - (end - 1)->angle <= near && end->angle - begin->angle < 1;)
+                ++end;
             if (end - begin < 2) continue;
             std::sort(begin, end, [this](const Wing& x, const Wing& y) { return side(x, y) > 0; });
             for (auto wing = begin + 1; wing != end; ++wing)
@@ -110,8 +113,8 @@ private:
         }
     }
 
-    // The angle of the tip about the edge, from the direction `x`, which the first sets. Returns false for a triangle so
-    // flat that rounding may have moved the tip to anywhere.
+    // The angle of the tip about the edge, from the direction `x`, which the first sets. Returns false for a
+    // triangle so flat that rounding may have moved the tip to anywhere.
     bool set_angle(Wing& wing, Vector& x) const {
         const Vector edge = scaled(minus(at(wing.edge[1]), at(wing.edge[0])));
         const Vector side = scaled(minus(at(wing.tip), at(wing.edge[0])));
@@ -146,7 +149,8 @@ private:
 
 } // namespace
 
-std::vector<Overlap> find_overlaps(const std::vector<double>& positions, const std::vector<Triangle>& triangles) {
+std::vector<Overlap> find_overlaps(const std::vector<double>& positions,
+                                   const std::vector<Triangle>& triangles) {
     std::vector<Overlap> found = Finder(positions, triangles).find();
     std::sort(found.begin(), found.end(), [](const Overlap& x, const Overlap& y) {
         return std::tie(x.first, x.second, x.kind) < std::tie(y.first, y.second, y.kind);

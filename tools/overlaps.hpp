@@ -21,8 +21,9 @@ struct Overlap {
     OverlapKind kind;
 };
 
-// Of several triangles on each other, each is listed with one before it. Decided exactly, for 3 coordinates a
+// Each of several triangles on each other is listed with one before it. Decided exactly, for 3 coordinates a
 // vertex; but a triangle flatter than 1e-12 of its length is in no fold.
-std::vector<Overlap> find_overlaps(const std::vector<double>& positions, const std::vector<Triangle>& triangles);
+std::vector<Overlap> find_overlaps(const std::vector<double>& positions,
+                                   const std::vector<Triangle>& triangles);
 
 } // namespace tool

@@ -171,6 +171,7 @@ typedef struct vox_io_tetrahedralize_desc {
     uint64_t max_tets; /* more tets fail with LIMIT; 0: 100000000 */
     /* STUFFED: largest Hausdorff distance to the surface, as measured by vox_io_mesh_measure. Cells at the boundary
      * are halved until the distance is met, while those inside keep the size `cell`; thin details may need many tets.
+     * Fails with LIMIT as soon as the way the distance falls would take more than four times max_tets.
      * 0: cells are not halved, and no distance is guaranteed. */
     double max_distance;
     /* STUFFED: how many times cells away from the boundary may be merged, eight into one. 0: all tets

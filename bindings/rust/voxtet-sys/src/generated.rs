@@ -1368,7 +1368,8 @@ pub struct vox_io_tetrahedralize_desc {
     pub max_tets: u64,
     /// STUFFED: largest Hausdorff distance to the surface, as measured by vox_io_mesh_measure. Cells at the boundary
     /// are halved until the distance is met, while those inside keep the size `cell`; thin details may need many tets.
-    /// 0: cells are not halved, and no distance is guaranteed.
+    /// Fails with LIMIT as soon as the way the distance falls would take more than four times max_tets. 0: cells are
+    /// not halved, and no distance is guaranteed.
     pub max_distance: f64,
     /// STUFFED: how many times cells away from the boundary may be merged, eight into one. 0: all tets have the same
     /// size. The boundary does not change.
