@@ -40,7 +40,7 @@ SOURCES = {
               "inftrees.h", "uncompr.c", "zconf.h", "zlib.h", "zutil.c", "zutil.h"], "LICENSE"),
 }
 # Sources of vox_io that need libraries which are not headers alone; no_xml.cpp and no_assimp.cpp stand in for them.
-NEED_LIBRARIES = {"src/io/formats/vtu.cpp", "src/io/formats/assimp.cpp"}
+NEED_LIBRARIES = {"src/io/formats/unpack.cpp", "src/io/formats/vtu.cpp", "src/io/formats/assimp.cpp"}
 # Highway's headers include these by name, one for each set of instructions; a computed include names some of them.
 ALWAYS = {"hwy": ["hwy/foreach_target.h", "hwy/highway.h"]}
 

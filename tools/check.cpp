@@ -1,9 +1,10 @@
-// vox check: whether the surface of a mesh passes through itself, and where.
+// vox check: whether the surface of a mesh passes through itself or lies on itself, and where.
 #include "body.hpp"
 #include "commands.hpp"
 #include "failure.hpp"
 #include "options.hpp"
 #include "output_file.hpp"
+#include "overlaps.hpp"
 #include "report.hpp"
 #include "terminal.hpp"
 
@@ -32,8 +33,6 @@ struct CheckOptions {
 const char* crossing_name(vox_crossing_kind kind) {
     return kind == VOX_CROSSING_THROUGH ? "through" : kind == VOX_CROSSING_TOUCHING ? "touching" : "coplanar";
 }
-
-using Triangle = std::array<std::uint32_t, 3>;
 
 // The surface of a mesh: its triangles, or the facets that only one tetrahedron has. Vertices at the same
 // place are merged into the lowest one, as files often repeat a vertex for each triangle.
@@ -105,7 +104,14 @@ struct Checked {
     CheckedSurface surface;
     std::vector<std::uint32_t> edges; // two vertices each
     std::vector<vox_crossing> crossings;
+    std::vector<Overlap> overlaps;
 
+    bool is_free() const { return crossings.empty() && overlaps.empty(); }
+    std::size_t count(OverlapKind kind) const {
+        return static_cast<std::size_t>(
+            std::count_if(overlaps.begin(), overlaps.end(),
+                          [kind](const Overlap& overlap) { return overlap.kind == kind; }));
+    }
     std::size_t count(vox_crossing_kind kind) const {
         return static_cast<std::size_t>(
             std::count_if(crossings.begin(), crossings.end(),
@@ -139,19 +145,42 @@ Checked check_file(const std::string& file, const CheckOptions& options) {
     vox_crossing_view view{};
     check(vox_surface_find_crossings(surface.get(), &view));
     checked.crossings.assign(view.data, view.data + view.count);
+    checked.overlaps = find_overlaps(checked.surface.positions, checked.surface.triangles);
     return checked;
+}
+
+void print_overlaps(const Checked& checked, std::uint64_t limit) {
+    const std::uint64_t shown = std::min<std::uint64_t>(limit, checked.overlaps.size());
+    for (std::size_t i = 0; i < shown; ++i) {
+        const Overlap& overlap = checked.overlaps[i];
+        const Triangle &x = checked.surface.triangles[overlap.first],
+                       &y = checked.surface.triangles[overlap.second];
+        std::printf("  triangles %u %u %u and %u %u %u, %s\n", x[0], x[1], x[2], y[0], y[1], y[2],
+                    overlap_names[static_cast<std::size_t>(overlap.kind)]);
+    }
+    print_rest(checked.overlaps.size() - shown);
 }
 
 void print_check(const Checked& checked, std::uint64_t limit) {
     std::printf("%s: %llu triangles, %llu edges: ", shown(checked.file).c_str(),
                 llu(checked.surface.triangles.size()), llu(checked.edges.size() / 2));
-    if (checked.crossings.empty()) {
+    if (checked.is_free()) {
         std::printf("free of self-intersection\n");
         return;
     }
-    std::printf("%llu edges meet triangles (%llu through, %llu touching, %llu coplanar)\n",
-                llu(checked.crossings.size()), llu(checked.count(VOX_CROSSING_THROUGH)),
-                llu(checked.count(VOX_CROSSING_TOUCHING)), llu(checked.count(VOX_CROSSING_COPLANAR)));
+    if (!checked.crossings.empty())
+        std::printf("%llu edges meet triangles (%llu through, %llu touching, %llu coplanar)%s",
+                    llu(checked.crossings.size()), llu(checked.count(VOX_CROSSING_THROUGH)),
+                    llu(checked.count(VOX_CROSSING_TOUCHING)), llu(checked.count(VOX_CROSSING_COPLANAR)),
+                    checked.overlaps.empty() ? "" : ", ");
+    if (!checked.overlaps.empty())
+        std::printf("%llu %s on each other (%llu folded, %llu doubled, %llu opposite)",
+                    llu(checked.overlaps.size()),
+                    checked.overlaps.size() == 1 ? "pair of triangles lies" : "pairs of triangles lie",
+                    llu(checked.count(OverlapKind::folded)), llu(checked.count(OverlapKind::doubled)),
+                    llu(checked.count(OverlapKind::opposite)));
+    std::printf("\n");
+    print_overlaps(checked, limit);
     const std::size_t shown =
         static_cast<std::size_t>(std::min<std::uint64_t>(limit, checked.crossings.size()));
     for (std::size_t i = 0; i < shown; ++i) {
@@ -173,6 +202,12 @@ Json check_json(const Checked& checked) {
                         {"kind", crossing_name(c.kind)},
                         {"position", Json::array_of(c.position)}});
     }
+    Json overlaps = Json::array();
+    for (const Overlap& overlap : checked.overlaps)
+        overlaps.push_back(
+            {{"triangles", Json::array({Json::array_of(checked.surface.triangles[overlap.first]),
+                                        Json::array_of(checked.surface.triangles[overlap.second])})},
+             {"kind", overlap_names[static_cast<std::size_t>(overlap.kind)]}});
     return {{"file", checked.file},
             {"triangles", checked.surface.triangles.size()},
             {"edges", checked.edges.size() / 2},
@@ -180,10 +215,15 @@ Json check_json(const Checked& checked) {
             {"touching", checked.count(VOX_CROSSING_TOUCHING)},
             {"coplanar", checked.count(VOX_CROSSING_COPLANAR)},
             {"crossings", list},
+            {"folded", checked.count(OverlapKind::folded)},
+            {"doubled", checked.count(OverlapKind::doubled)},
+            {"opposite", checked.count(OverlapKind::opposite)},
+            {"overlaps", overlaps},
             {"report", checked.report}};
 }
 
-// Writes the surface, with the number of crossings of each vertex (by its edges) and each triangle.
+// Writes the surface, with the number of crossings of each vertex (by its edges) and each triangle, in whose
+// number are the triangles on it, too.
 void write_surface(const Checked& checked, const std::string& path) {
     const std::vector<Triangle>& triangles = checked.surface.triangles;
     std::vector<double> of_vertex(checked.surface.positions.size() / 3, 0), of_triangle(triangles.size(), 0);
@@ -201,6 +241,8 @@ void write_surface(const Checked& checked, const std::string& path) {
             const auto found = of_edge.find({std::min(v, w), std::max(v, w)});
             if (found != of_edge.end()) of_triangle[t] += found->second;
         }
+    for (const Overlap& overlap : checked.overlaps)
+        for (const std::size_t t : {overlap.first, overlap.second}) of_triangle[t] += 1;
     const vox_io_mesh_view arrays{checked.surface.positions.data(), of_vertex.size(), nullptr, 0,
                                   triangles.front().data(),         triangles.size(), nullptr, nullptr};
     vox_io_mesh* made = nullptr;
@@ -225,7 +267,7 @@ void run_check(const CheckOptions& options) {
     Json meshes = Json::array();
     for (const std::string& file : options.files) {
         const Checked checked = check_file(file, options);
-        free &= checked.crossings.empty();
+        free &= checked.is_free();
         if (!options.out.empty()) write_surface(checked, options.out);
         if (options.json)
             meshes.push_back(check_json(checked));

@@ -7,6 +7,8 @@
 #include "report.hpp"
 #include "terminal.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace tool {
@@ -23,14 +25,55 @@ struct TetrahedralizeOptions {
 constexpr Choice<vox_io_solid_kind> kinds[] = {{"stuffed", VOX_IO_SOLID_STUFFED},
                                                {"cubes", VOX_IO_SOLID_CUBES}};
 
+// About how many tetrahedra it will be: twelve a cell, or five a cube, and those that the surface cuts.
+std::string expected_tets(const vox_io_mesh* surface, const vox_io_tetrahedralize_desc& desc) {
+    auto report = sized<vox_io_report>();
+    check(vox_io_mesh_get_report(surface, &report));
+    vox_io_mesh_view view{};
+    check(vox_io_mesh_get_arrays(surface, &view));
+    double twice_area = 0, longest = 0;
+    for (std::uint64_t t = 0; t < view.triangle_count; ++t) {
+        const double* p[3];
+        for (std::uint64_t i = 0; i < 3; ++i)
+            p[i] = view.positions + 3 * std::uint64_t{view.triangles[3 * t + i]};
+        double squares = 0;
+        for (int k = 0; k < 3; ++k) {
+            const int i = (k + 1) % 3, j = (k + 2) % 3;
+            const double n =
+                (p[1][i] - p[0][i]) * (p[2][j] - p[0][j]) - (p[1][j] - p[0][j]) * (p[2][i] - p[0][i]);
+            squares += n * n;
+        }
+        twice_area += std::sqrt(squares);
+    }
+    for (int k = 0; k < 3; ++k) longest = std::max(longest, report.bounds_max[k] - report.bounds_min[k]);
+    const double cell = desc.cell > 0 ? desc.cell : longest / 50,
+                 cells = std::fabs(report.volume) / (cell * cell * cell), cut = twice_area / (cell * cell);
+    const double tets = desc.kind == VOX_IO_SOLID_CUBES ? 5 * (cells + cut / 2) : 12 * cells + cut;
+    const char* const how = desc.max_distance > 0 ? "at least" : desc.coarsen > 0 ? "at most" : "about";
+    char text[80];
+    if (tets < 1e6)
+        std::snprintf(text, sizeof text, "%s %.0f,000 tetrahedra", how, std::ceil(tets / 1e3));
+    else
+        std::snprintf(text, sizeof text, "%s %.*f million tetrahedra", how, tets < 1e7 ? 1 : 0, tets / 1e6);
+    constexpr double many = 5e6; // some seconds, and a gigabyte
+    if (tets > many && tets <= static_cast<double>(desc.max_tets ? desc.max_tets : 100000000))
+        std::fprintf(stderr, "vox: cells of %.3g make %s\n", cell, text);
+    return text;
+}
+
 Mesh fill(const vox_io_mesh* surface, vox_io_tetrahedralize_desc desc) {
-    Progress progress;
+    struct Filling {
+        std::string expected;
+        Progress progress;
+    };
+    Filling filling;
+    filling.expected = expected_tets(surface, desc);
     desc.progress = [](double fraction, void* user) -> std::int32_t {
-        static_cast<Progress*>(user)->show("filled " + std::to_string(static_cast<int>(100 * fraction)) +
-                                           " %");
+        auto& [expected, progress] = *static_cast<Filling*>(user);
+        progress.show("filled " + std::to_string(static_cast<int>(100 * fraction)) + " % of " + expected);
         return 0;
     };
-    desc.progress_user = &progress;
+    desc.progress_user = &filling;
     vox_io_mesh* filled = nullptr;
     check(vox_io_tetrahedralize(surface, &desc, &filled));
     return Mesh(filled);

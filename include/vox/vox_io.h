@@ -32,15 +32,16 @@ typedef enum vox_io_format {
     VOX_IO_FORMAT_TETGEN = 2,  /* .node with .ele */
     VOX_IO_FORMAT_MEDIT = 3,   /* .mesh, ASCII */
     VOX_IO_FORMAT_VEGA = 4,    /* .veg */
-    VOX_IO_FORMAT_VTK = 5,     /* legacy .vtk, 2.0 to 5.1; ASCII and binary */
-    /* XML .vtu: ASCII, base64, appended; raw or zlib. Reading it is UNSUPPORTED in a library that is built without
-     * pugixml and zlib (docs/file-formats.md). */
+    VOX_IO_FORMAT_VTK = 5,     /* legacy .vtk, 2.0 to 5.1; ASCII and binary; tets, or POLYDATA: triangles, no tets */
+    /* XML .vtu, and .vtp: triangles, no tets; ASCII, base64, appended; raw, zlib, LZ4 or LZMA. Reading it is UNSUPPORTED
+     * in a library that is built without pugixml and zlib, or for LZMA without liblzma (docs/file-formats.md). */
     VOX_IO_FORMAT_VTU = 6,
     VOX_IO_FORMAT_SURFACE = 7, /* .stl, .obj, .ply, .off, .gltf, .glb; triangles, no tets */
     /* Any other surface that assimp reads. assimp is not made for damaged files: they can end the process, keep it
      * busy without end and fill its memory. So AUTO never chooses it, and a library that is built without it, as is the
      * default (docs/file-formats.md), answers UNSUPPORTED. */
-    VOX_IO_FORMAT_ASSIMP = 8
+    VOX_IO_FORMAT_ASSIMP = 8,
+    VOX_IO_FORMAT_ABAQUS = 9 /* .inp; also of CalculiX */
 } vox_io_format;
 
 /* Flags of a vox_io_load_desc. */
@@ -187,6 +188,7 @@ typedef struct vox_io_tetrahedralize_desc {
     uint64_t max_tets; /* more tets fail with LIMIT; 0: 100000000 */
     /* STUFFED: largest Hausdorff distance to the surface, as measured by vox_io_mesh_measure. Cells at the boundary
      * are halved until the distance is met, while those inside keep the size `cell`; thin details may need many tets.
+     * Fails with LIMIT as soon as the way the distance falls would take more than four times max_tets.
      * 0: cells are not halved, and no distance is guaranteed. */
     double max_distance;
     /* STUFFED: how many times cells away from the boundary may be merged, eight into one. 0: all tets

@@ -15,7 +15,7 @@ namespace {
 vox_io_load_desc checked(const vox_io_load_desc* in) {
     if (!in) return {};
     const vox_io_load_desc desc = read_struct(in, "vox_io_load_desc");
-    check_enum(desc.format, VOX_IO_FORMAT_ASSIMP, "vox_io_load_desc.format");
+    check_enum(desc.format, VOX_IO_FORMAT_ABAQUS, "vox_io_load_desc.format");
     check_allocator(desc.allocator, "vox_io_load_desc.allocator");
     if ((desc.flags & ~std::uint32_t{VOX_IO_LOAD_KEEP_UNUSED}) != 0)
         refuse(format("vox_io_load_desc.flags is 0x%x, expected vox_io_load_flags", desc.flags));
@@ -77,9 +77,7 @@ MeshData load(const std::string& path, const vox_io_load_desc& desc, const Progr
     if (extension != "node" && extension != "ele")
         throw_error(VOX_ERROR_UNSUPPORTED, "%s: expected a TetGen file named .node or .ele", path.c_str());
     const bool is_node = extension == "node";
-    const std::string other_path =
-        path.substr(0, path.size() - extension.size()) + (is_node ? "ele" : "node");
-    const FileBytes other(other_path);
+    const FileBytes other(path_beside(path, is_node ? "ele" : "node"));
     refuse_other_content(other.file());
     return is_node ? read_pair(file, other.file(), progress) : read_pair(other.file(), file, progress);
 }
@@ -230,9 +228,9 @@ const char* vox_io_mesh_get_warnings(const vox_io_mesh* mesh) {
 }
 
 const char* vox_io_format_string(vox_io_format format) {
-    static constexpr const char* names[] = {"no file",      "Gmsh .msh", "TetGen .node/.ele",
-                                            "Medit .mesh",  "Vega .veg", "VTK legacy .vtk",
-                                            "VTK XML .vtu", "surface",   "surface, by assimp"};
+    static constexpr const char* names[] = {
+        "no file",         "Gmsh .msh",    "TetGen .node/.ele", "Medit .mesh",        "Vega .veg",
+        "VTK legacy .vtk", "VTK XML .vtu", "surface",           "surface, by assimp", "Abaqus .inp"};
     const auto index = static_cast<std::uint32_t>(enum_value(format));
     return index < std::size(names) ? names[index] : "unknown format";
 }

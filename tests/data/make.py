@@ -5,6 +5,7 @@ Two cubes, each of five tets; formats of mixed elements get two triangles and a 
 implementation of the formats of its own, so that the readers are not tested against our own writers alone.
 """
 import base64
+import lzma
 import os
 import struct
 import zlib
@@ -98,7 +99,7 @@ def gmsh_4():
         write("box_40_%s.msh" % name, out + b"\n$EndElements\n")
 
 
-# ---- TetGen, Medit, Vega ----
+# ---- TetGen, Medit, Vega, Abaqus ----
 
 def tetgen():
     write("box.node", "# two cubes\n12 3 1 1\n" + lines((i + 1, *p, 0.5, 1) for i, p in enumerate(POINTS)))
@@ -118,7 +119,42 @@ def vega():
           "*MATERIAL rubber\nENU, 1000, 1e6, 0.45\n*REGION\nallElements, rubber\n")
 
 
+def abaqus():
+    commas = lambda rows: "".join(", ".join(map(str, row)) + "\n" for row in rows)
+    write("box.inp", "*Heading\n** two cubes\n*NODE, NSET=all\n" + commas(numbered(POINTS, 1)) +
+          "*ELEMENT, TYPE=CPS3, ELSET=skin\n" + commas(numbered([one_up(c) for c in TRIANGLES], 1)) +
+          "*ELEMENT, TYPE=C3D8R\n" + commas(numbered([one_up(c) for c in HEXAHEDRA], 3)) +
+          "*Element, type=C3D4,\nelset=body\n" + commas(numbered([one_up(c) for c in TETS], 4)) +
+          "*MATERIAL, NAME=rubber\n*ELASTIC\n1e6, 0.45\n")
+
+
 # ---- VTK ----
+
+def lz4_block(data):
+    """A block of LZ4, of greedy matches."""
+    out, start, at, seen = b"", 0, 0, {}
+
+    def length(number):
+        return b"" if number < 15 else b"\xff" * ((number - 15) // 255) + bytes([(number - 15) % 255])
+
+    while at + 12 < len(data):
+        before, seen[data[at:at + 4]] = seen.get(data[at:at + 4]), at
+        if before is None or at - before > 65535:
+            at += 1
+            continue
+        same = 4
+        while at + same < len(data) - 5 and data[before + same] == data[at + same]:
+            same += 1
+        out += bytes([min(at - start, 15) << 4 | min(same - 4, 15)]) + length(at - start) + data[start:at]
+        out += struct.pack("<H", at - before) + length(same - 4)
+        at += same
+        start = at
+    rest = len(data) - start
+    return out + bytes([min(rest, 15) << 4]) + length(rest) + data[start:]
+
+
+COMPRESSORS = {"ZLib": zlib.compress, "LZ4": lz4_block, "LZMA": lambda data: lzma.compress(data, check=lzma.CHECK_CRC32)}
+
 
 def vtk():
     size = sum(1 + len(c) for _, _, c in MIXED)
@@ -163,22 +199,22 @@ def vtu():
               ("offsets", "Int32", "i", 1, ends),
               ("types", "UInt8", "B", 1, [v for _, v, _ in MIXED]))
 
-    def packed(letter, values, order, header, zip_blocks):
+    def packed(letter, values, order, header, compressor):
         data = struct.pack(order + "%d%s" % (len(values), letter), *values)
-        if not zip_blocks:
+        if not compressor:
             return [struct.pack(order + header, len(data)) + data]
-        size = 64
+        size = 64 if compressor == "ZLib" else 100
         blocks = [data[i:i + size] for i in range(0, len(data), size)]
-        small = [zlib.compress(b) for b in blocks]
+        small = [COMPRESSORS[compressor](b) for b in blocks]
         last = len(blocks[-1]) if len(blocks[-1]) < size else 0
         return [struct.pack(order + "%d%s" % (3 + len(small), header), len(small), size, last,
                             *(len(b) for b in small)), b"".join(small)]
 
-    def file(name, kind, order="<", header="I", zip_blocks=False, encoding="base64"):
+    def file(name, kind, order="<", header="I", compressor=None, encoding="base64"):
         attributes = 'type="UnstructuredGrid" version="1.0" byte_order="%s" header_type="%s"' % (
             "LittleEndian" if order == "<" else "BigEndian", "UInt32" if header == "I" else "UInt64")
-        if zip_blocks:
-            attributes += ' compressor="vtkZLibDataCompressor"'
+        if compressor:
+            attributes += ' compressor="vtk%sDataCompressor"' % compressor
         xml, appended = [], b""
         for array, type_name, letter, components, values in arrays:
             start = '<DataArray type="%s" Name="%s" NumberOfComponents="%d" format="%s"' % (
@@ -186,7 +222,7 @@ def vtu():
             if kind == "ascii":
                 xml.append(start + ">\n" + " ".join(map(repr, values)) + "\n</DataArray>\n")
                 continue
-            groups = packed(letter, values, order, header, zip_blocks)
+            groups = packed(letter, values, order, header, compressor)
             if kind == "binary" or encoding == "base64":
                 groups = [base64.b64encode(g) for g in groups]
             if kind == "binary":
@@ -203,11 +239,13 @@ def vtu():
 
     file("box_ascii.vtu", "ascii")
     file("box_base64.vtu", "binary")
-    file("box_base64_zlib.vtu", "binary", header="Q", zip_blocks=True)
+    file("box_base64_zlib.vtu", "binary", header="Q", compressor="ZLib")
     file("box_appended.vtu", "appended", encoding="raw")
-    file("box_appended_zlib_big.vtu", "appended", order=">", zip_blocks=True, encoding="raw")
+    file("box_appended_zlib_big.vtu", "appended", order=">", compressor="ZLib", encoding="raw")
     file("box_appended_base64.vtu", "appended", header="Q")
-    file("box_appended_base64_zlib.vtu", "appended", zip_blocks=True)
+    file("box_appended_base64_zlib.vtu", "appended", compressor="ZLib")
+    file("box_base64_lz4.vtu", "binary", compressor="LZ4")
+    file("box_appended_lzma.vtu", "appended", header="Q", compressor="LZMA", encoding="raw")
 
 
 # ---- surfaces ----
@@ -247,6 +285,22 @@ def surfaces():
         "".join("      vertex %e %e %e\n" % corners[c] for c in t) + "    endloop\n  endfacet\n"
         for t in triangles) + "endsolid cube\n")
     # A scene: the same tetrahedron twice, moved by its nodes, once mirrored.
+    # Five polygons and the last quad as a strip, with a line.
+    ends, flat = [4 * i for i in range(6)], [c for q in quads[:5] for c in q]
+    strip = [quads[5][i] for i in (0, 1, 3, 2)]
+    out = b"# vtk DataFile Version 5.1\na cube\nBINARY\nDATASET POLYDATA\nFIELD FieldData 1\nunits 1 2 string\n"
+    out += b"\xc2mm\x80\x64" + b"x" * 100 + b"\nPOINTS 8 float\n" + b"".join(struct.pack(">3f", *p) for p in corners)
+    out += b"\nLINES 2 2\nOFFSETS vtktypeint64\n" + struct.pack(">2q", 0, 2) + b"\nCONNECTIVITY vtktypeint64\n"
+    out += struct.pack(">2q", 0, 7) + b"\nPOLYGONS 6 20\nOFFSETS vtktypeint64\n" + struct.pack(">6q", *ends)
+    out += b"\nCONNECTIVITY vtktypeint64\n" + struct.pack(">20q", *flat) + b"\nTRIANGLE_STRIPS 2 4\nOFFSETS vtktypeint64\n"
+    write("cube.vtk", out + struct.pack(">2q", 0, 4) + b"\nCONNECTIVITY vtktypeint64\n" + struct.pack(">4q", *strip) + b"\n")
+    array = '<DataArray type="%s" Name="%s" NumberOfComponents="%d" format="ascii">%s</DataArray>\n'
+    write("cube.vtp", '<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian">\n<PolyData>\n<Piece NumberOfPoints="8" '
+          'NumberOfVerts="0" NumberOfLines="0" NumberOfStrips="1" NumberOfPolys="5">\n<Points>\n' +
+          array % ("Float32", "Points", 3, " ".join("%d %d %d" % p for p in corners)) + "</Points>\n<Strips>\n" +
+          array % ("Int32", "connectivity", 1, " ".join(map(str, strip))) + array % ("Int32", "offsets", 1, "4") +
+          "</Strips>\n<Polys>\n" + array % ("Int32", "connectivity", 1, " ".join(map(str, flat))) +
+          array % ("Int32", "offsets", 1, " ".join(map(str, ends[1:]))) + "</Polys>\n</Piece>\n</PolyData>\n</VTKFile>\n")
     data = struct.pack("<12f12H", 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2)
     write("two_tetrahedra.gltf", """{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
  "nodes": [{"mesh": 0, "translation": [10, 0, 0]}, {"mesh": 0, "scale": [-2, 2, 2]}],
@@ -272,5 +326,5 @@ def surfaces():
           struct.pack("<I4s", len(json), b"JSON") + json + struct.pack("<I4s", len(data), b"BIN\0") + data)
 
 
-for make in (gmsh_1, gmsh_22, gmsh_4, tetgen, medit, vega, vtk, vtu, surfaces):
+for make in (gmsh_1, gmsh_22, gmsh_4, tetgen, medit, vega, abaqus, vtk, vtu, surfaces):
     make()

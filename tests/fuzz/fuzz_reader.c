@@ -62,7 +62,8 @@ int LLVMFuzzerInitialize(int* argc, char*** argv) {
         const char* extension;
         vox_io_format format;
     } tets[] = {{"msh", VOX_IO_FORMAT_GMSH}, {"node", VOX_IO_FORMAT_TETGEN}, {"mesh", VOX_IO_FORMAT_MEDIT},
-                {"veg", VOX_IO_FORMAT_VEGA}, {"vtk", VOX_IO_FORMAT_VTK},     {"vtu", VOX_IO_FORMAT_VTU}};
+                {"veg", VOX_IO_FORMAT_VEGA}, {"vtk", VOX_IO_FORMAT_VTK},     {"vtu", VOX_IO_FORMAT_VTU},
+                {"vtp", VOX_IO_FORMAT_VTU},  {"inp", VOX_IO_FORMAT_ABAQUS}};
     const char* extension = getenv("FUZZ_EXTENSION");
     (void)argc;
     (void)argv;

@@ -297,7 +297,8 @@ START_TEST(content_before_name) {
         vox_io_format format;
     } rows[] = {{"box_22.msh", VOX_IO_FORMAT_GMSH},       {"box_41_big.msh", VOX_IO_FORMAT_GMSH},
                 {"box.mesh", VOX_IO_FORMAT_MEDIT},        {"box.veg", VOX_IO_FORMAT_VEGA},
-                {"box_51_binary.vtk", VOX_IO_FORMAT_VTK}, {"box_appended.vtu", VOX_IO_FORMAT_VTU}};
+                {"box_51_binary.vtk", VOX_IO_FORMAT_VTK}, {"box_appended.vtu", VOX_IO_FORMAT_VTU},
+                {"box.inp", VOX_IO_FORMAT_ABAQUS}};
     static const char* const names[] = {NULL, "noname", "x.msh", "x.vtk", "x.obj", "a.b/c"};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
         bytes file = read_file(VOX_TEST_DATA, rows[i].file);
@@ -384,7 +385,7 @@ START_TEST(off_variants) {
         {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n2 0 1\n", "expected triangles, found none"},
         {"OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n", "expected triangles"},
         {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 2\n", "line 7: expected the end of the file"},
-        {"4OFF\n3 1 0\n0 0 0 1\n1 0 0 1\n0 1 0 1\n3 0 1 2\n", "4OFF"},
+        {"4OFF\n3 1 0\n0 0 0 1\n1 0 0 0\n0 1 0 1\n3 0 1 2\n", "line 4: expected a fourth coordinate"},
         {"OFF BINARY\n3 1 0\n", "BINARY"}};
     for (size_t i = 0; i < sizeof good / sizeof *good; ++i) {
         const size_t size = strlen(good[i]);

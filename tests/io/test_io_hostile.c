@@ -35,6 +35,8 @@ static const char* const samples[] = {"box_1.msh",
                                       "box_appended_zlib_big.vtu",
                                       "box_appended_base64.vtu",
                                       "box_appended_base64_zlib.vtu",
+                                      "box_base64_lz4.vtu",
+                                      "box.inp",
                                       "cube.stl", /* from here on surfaces */
                                       "cube_text.stl",
                                       "cube.obj",
@@ -43,9 +45,11 @@ static const char* const samples[] = {"box_1.msh",
                                       "cube_big.ply",
                                       "cube_strips.ply",
                                       "cube.off",
+                                      "cube.vtk",
+                                      "cube.vtp",
                                       "two_tetrahedra.gltf",
                                       "two_tetrahedra.glb"};
-enum { sample_count = sizeof samples / sizeof *samples, first_surface = 25 };
+enum { sample_count = sizeof samples / sizeof *samples, first_surface = 27 };
 
 /* Processor time in seconds. */
 static double seconds(void) { return (double)clock() / CLOCKS_PER_SEC; }

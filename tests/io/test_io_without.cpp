@@ -8,7 +8,7 @@ using namespace vox;
 using namespace vox::io;
 
 namespace vox::io {
-MeshData read_vtu_without_xml(const File& file); // read_vtu of no_xml.cpp
+MeshData read_vtu_without_xml(const File& file, std::uint32_t); // read_vtu of no_xml.cpp
 }
 
 namespace {
@@ -16,7 +16,7 @@ namespace {
 START_TEST(without_xml) {
     const File file{"folder/a.vtu", "<VTKFile type=\"UnstructuredGrid\">"};
     try {
-        (void)read_vtu_without_xml(file);
+        (void)read_vtu_without_xml(file, 0);
         ck_abort_msg("was read");
     } catch (const Error& error) {
         ck_assert_int_eq(error.result(), VOX_ERROR_UNSUPPORTED);

@@ -183,6 +183,47 @@ START_TEST(kept_distance) {
 }
 END_TEST
 
+/* A tip is approached linearly, and only by ever more tets: refused while they are few. */
+START_TEST(thin_spike) {
+    const double pi = 3.14159265358979323846;
+    for (int diagonal = 0; diagonal < 2; ++diagonal) {
+        clear();
+        const uint32_t base = vertex(0, 0, 0), tip = diagonal ? vertex(0.6, 0.6, 0.5) : vertex(0, 0, 1);
+        for (int i = 0; i < 16; ++i) {
+            const double x = 0.005 * cos(pi * i / 8), y = 0.005 * sin(pi * i / 8);
+            vertex(x, y, diagonal ? -(x + y) * 1.2 : 0);
+        }
+        for (uint32_t i = 0; i < 16; ++i) {
+            const uint32_t a = tip + 1 + i, b = tip + 1 + (i + 1) % 16;
+            triangle(base, b, a);
+            triangle(a, b, tip);
+        }
+        vox_io_mesh *mesh = made(), *untouched = NULL;
+        vox_io_tetrahedralize_desc desc = with_cell(0.01);
+        desc.max_distance = 0.0002;
+        ck_fails(vox_io_tetrahedralize(mesh, &desc, &untouched), VOX_ERROR_LIMIT,
+                 "0.0002 (max_distance) would take about");
+        unsigned long long tets = 0;
+        const char* found = strstr(vox_last_error(), ", ");
+        ck_assert(found && sscanf(found + 2, "%llu tets", &tets) == 1);
+        ck_assert_msg(tets < 1000000, "%llu tets were made first", tets);
+        /* Its long triangles are sampled in rows: the tip that is lost is still found, exactly. */
+        vox_io_mesh* short_of_it = stuffed(mesh, 0.004);
+        vox_io_mesh_view view;
+        ck_ok(vox_io_mesh_get_arrays(short_of_it, &view));
+        double nearest = 2;
+        const double p[3] = {diagonal ? 0.6 : 0, diagonal ? 0.6 : 0, diagonal ? 0.5 : 1};
+        for (uint64_t v = 0; v < view.vertex_count; ++v)
+            nearest =
+                fmin(nearest, hypot(hypot(view.positions[3 * v] - p[0], view.positions[3 * v + 1] - p[1]),
+                                    view.positions[3 * v + 2] - p[2]));
+        ck_assert_double_eq_tol(quality_of(short_of_it, mesh).surface_to_mesh, nearest, 1e-3 * nearest);
+        vox_io_mesh_destroy(short_of_it);
+        vox_io_mesh_destroy(mesh);
+    }
+}
+END_TEST
+
 /* ---- inside and outside ---- */
 
 START_TEST(cavity) {
@@ -497,7 +538,8 @@ START_TEST(bad_arguments) {
     desc.max_tets = UINT64_MAX;
     ck_fails(vox_io_tetrahedralize(mesh, &desc, &untouched), VOX_ERROR_INVALID_ARGUMENT, "max_tets is");
     desc.max_tets = 1000;
-    ck_fails(vox_io_tetrahedralize(mesh, &desc, &untouched), VOX_ERROR_LIMIT, "1000 tets");
+    ck_fails(vox_io_tetrahedralize(mesh, &desc, &untouched), VOX_ERROR_LIMIT,
+             "about 1500000 tets, more than 1000 (max_tets)");
     desc.kind = VOX_IO_SOLID_CUBES;
     ck_fails(vox_io_tetrahedralize(mesh, &desc, &untouched), VOX_ERROR_LIMIT, "at most 1000");
     desc = with_cell(0);
@@ -533,7 +575,7 @@ SUITE(solid_surfaces) {
     TCase* tests = add_case(suite, "surfaces");
     tcase_add_checked_fixture(tests, clear, NULL);
     tcase_add_loop_test(tests, box, 0, 4);
-    tcase_add_each(tests, distance_is_exact, kept_distance, cavity, overlapping_parts_join,
+    tcase_add_each(tests, distance_is_exact, kept_distance, thin_spike, cavity, overlapping_parts_join,
                    orientation_does_not_matter, soup_is_welded, small_hole_is_closed,
                    open_surfaces_are_refused, nothing_inside, any_place_and_scale, cubes, progress_and_cancel,
                    old_and_new_structs, bad_arguments);

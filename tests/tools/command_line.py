@@ -485,6 +485,17 @@ class CommandLine(Files):
         # With tetrahedra it holds what a surface cannot.
         self.assertGreater(run_json("collide", out, self.one, "--scale", 0.5)["contact_count"], 4)
 
+    def test_tetrahedra_to_expect(self):
+        """Said before the work where they are many; here it ends at once, as there are too many cells along x."""
+        strip = self.write("strip.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 0.15 0\n3 0 1 2\n3 0 2 1\n")
+        arguments = "tetrahedralize", strip, "-o", self.path("strip.msh"), "--cell"
+        self.assertEqual(run(*arguments, 0.0002).stderr.decode(), "vox: cells of 0.0002 make about 7.5 million tetrahedra\n"
+                         "vox: a cell of 0.0002 makes 5000 cells along x, at most 4096 are possible\n")
+        self.assertIn(b"at least 7.5 million", run(*arguments, 0.0002, "--max-distance", 1).stderr)
+        self.assertIn(b"at most 7.5 million", run(*arguments, 0.0002, "--coarsen", 1).stderr)
+        self.refused(1, "5000 cells along x", *arguments, 0.0002, "--max-tets", 5000000)
+        self.refused(1, "10000 cells along x", *arguments, 0.0001, "--max-tets", 10000000)
+
     def test_output_is_checked_before_the_work(self):
         # There is no such surface, but that is not what is said: the output is looked at first.
         for out, words in (("out.stl", r"out.stl: expected a name that ends with .msh or .vtu"),

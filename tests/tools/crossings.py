@@ -1,6 +1,9 @@
 """vox check and vox collide --edges: surfaces that pass through themselves, bars laid across each other."""
 
+import fractions
 import json
+import math
+import random
 import unittest
 import xml.etree.ElementTree
 
@@ -92,6 +95,58 @@ class Crossings(Files):
         found = run_json("check", self.write("soup.obj", text))
         self.assertIs(found["free"], True)
         self.assertEqual(found["meshes"][0]["edges"], 18)
+
+    def check_overlaps(self, text, folded, doubled, opposite, kind="off"):
+        path = self.write("overlaps." + kind, text)
+        done = run("check", path, "--json")
+        self.assertEqual(done.returncode, 3 if folded or doubled or opposite else 0, done.stderr)
+        mesh, = json.loads(done.stdout)["meshes"]
+        self.assertEqual((mesh["folded"], mesh["doubled"], mesh["opposite"]), (folded, doubled, opposite))
+        self.assertEqual([len(mesh["overlaps"]), mesh["crossings"]], [folded + doubled + opposite, []])
+        return mesh["overlaps"], run("check", path).stdout.decode()
+
+    def test_overlaps(self):
+        """Triangles that share an edge, or all three vertices, and lie on each other."""
+        def off(points, *faces):
+            return f"OFF {len(points)} {len(faces)} 0\n" + "".join("{!r} {!r} {!r}\n".format(*p) for p in points) + "".join(
+                "3 {} {} {}\n".format(*f) for f in faces)
+
+        points = [(0, 0, 0), (2, 0, 0), (0.5, 1, 0), (1.5, 1.5, 0), (1, -1, 0), (1, 0, 1)]
+        overlaps, text = self.check_overlaps(off(points, (0, 1, 2), (1, 0, 3)), 1, 0, 0)
+        self.assertEqual(overlaps, [{"triangles": [[0, 1, 2], [1, 0, 3]], "kind": "folded"}])
+        self.assertIn("1 pair of triangles lies on each other (1 folded, 0 doubled, 0 opposite)\n"
+                      "  triangles 0 1 2 and 1 0 3, folded\n", text)
+        self.check_overlaps(off(points, (0, 1, 2), (1, 0, 4), (0, 1, 5)), 0, 0, 0)  # flat, and a fin
+        self.check_overlaps(off(points, (0, 1, 2), (1, 2, 0), (2, 1, 0)), 0, 1, 1)
+        self.check_overlaps(off(points, (0, 1, 2), (1, 2, 0), (1, 0, 3)), 1, 1, 0)
+        # Exactly: a plane that rounds, and the same with the last bit of one number changed; in every order of the fin's angle.
+        for far in (0, 1e6):
+            a, b, c, d = ((far + x, 3 * x, y) for x, y in ((0.1, 0.3), (0.7, 0.3), (0.2, 0.9), (0.6, 0.8)))
+            for turn in range(3):
+                points = [tuple(p[(i + turn) % 3] for i in range(3)) for p in (a, b, c, d)]
+                exact = self.volume(points) == 0
+                self.check_overlaps(off(points, (0, 1, 2), (0, 1, 3)), int(exact), 0, 0)
+        points = [(0, 0, 0), (1, 1, 0), (0, 1, 0.25), (0.5, 2, 0.375)]
+        self.assertEqual(self.volume(points), 0)
+        self.check_overlaps(off(points, (0, 1, 2), (0, 1, 3)), 1, 0, 0)
+        points[3] = (0.5, 2, math.nextafter(0.375, 1))
+        self.check_overlaps(off(points, (0, 1, 2), (0, 1, 3)), 0, 0, 0)
+        # A fan of many pages about one edge, every other page twice as high.
+        count = 60
+        points = [(0, 0, 0), (0, 0, 1)] + [(s * x, s * y, 0.5) for s in (1, 2) for x, y in
+                                           ((random.Random(i).randint(-9, 9) * 64 + i, 64 * 9 + i) for i in range(count))]
+        self.check_overlaps(off(points, *((0, 1, 2 + i) for i in range(2 * count))), self.folds(points), 0, 0)
+
+    @staticmethod
+    def volume(points):
+        a, b, c, d = ([fractions.Fraction(x) for x in p] for p in points)
+        u, v, w = ([y - x for x, y in zip(a, p)] for p in (b, c, d))
+        return sum(u[i] * (v[(i + 1) % 3] * w[(i + 2) % 3] - v[(i + 2) % 3] * w[(i + 1) % 3]) for i in range(3))
+
+    @staticmethod
+    def folds(points):
+        """How many pages have the direction of one before, about the z axis."""
+        return len(points) - 2 - len({fractions.Fraction(x, y) for x, y, _ in points[2:]})
 
     def test_rounding(self):
         """Doubles that are apart, and as floats are not."""

@@ -314,15 +314,17 @@ namespace Voxtet
         Medit = 3,
         /// <summary>.veg</summary>
         Vega = 4,
-        /// <summary>legacy .vtk, 2.0 to 5.1; ASCII and binary</summary>
+        /// <summary>legacy .vtk, 2.0 to 5.1; ASCII and binary; tets, or POLYDATA: triangles, no tets</summary>
         Vtk = 5,
-        /// <summary>XML .vtu: ASCII, base64, appended; raw or zlib.</summary>
+        /// <summary>XML .vtu, and .vtp: triangles, no tets; ASCII, base64, appended; raw, zlib, LZ4 or LZMA.</summary>
         Vtu = 6,
         /// <summary>.stl, .obj, .ply, .off, .gltf, .glb; triangles, no tets</summary>
         Surface = 7,
         /// <summary>Any other surface that assimp reads. assimp is not made for damaged files: they can end the
         /// process, keep it busy without end and fill its memory.</summary>
         Assimp = 8,
+        /// <summary>.inp; also of CalculiX</summary>
+        Abaqus = 9,
     }
 
     /// <summary>Flags of a vox_io_load_desc.</summary>

@@ -30,6 +30,22 @@ std::from_chars_result read_double_by_c(const char* begin, const char* end, doub
     return {begin + size, fits ? std::errc{} : std::errc::result_out_of_range};
 }
 
+std::from_chars_result read_fortran(const char* begin, std::from_chars_result found, const char* end,
+                                    double& value) {
+    const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+    std::string text(begin, found.ptr);
+    const bool letter = *found.ptr == 'D' || *found.ptr == 'd';
+    if (text.find_first_of("eE") != std::string::npos || (!letter && text.find('.') == std::string::npos))
+        return found;
+    const char* const exponent = found.ptr + letter;
+    const char* stop = exponent != end && (*exponent == '+' || *exponent == '-') ? exponent + 1 : exponent;
+    const char* const digits = stop;
+    while (stop != end && is_digit(*stop)) ++stop;
+    if (stop == digits) return found;
+    text.append("e").append(exponent + (*exponent == '+'), stop);
+    return {stop, read_double(text.data(), text.data() + text.size(), value).ec};
+}
+
 char* write_double_by_c(char* begin, char* end, double value) {
     char text[40];
     for (int digits = 1; digits <= 17; ++digits) {

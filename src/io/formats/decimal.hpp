@@ -12,6 +12,10 @@ namespace vox::io {
 // double.
 std::from_chars_result read_double_by_c(const char* begin, const char* end, double& value);
 char* write_double_by_c(char* begin, char* end, double value);
+// Reads a number again whose mantissa `found` ended at an exponent of Fortran; gives `found` if it is none.
+std::from_chars_result read_fortran(const char* begin, std::from_chars_result found, const char* end,
+                                    double& value);
+constexpr bool is_fortran_exponent(char c) { return c == 'D' || c == 'd' || c == '+' || c == '-'; }
 
 inline std::from_chars_result read_double(const char* begin, const char* end, double& value) {
 #if defined(__cpp_lib_to_chars)
@@ -19,6 +23,14 @@ inline std::from_chars_result read_double(const char* begin, const char* end, do
     if (result.ec != std::errc::result_out_of_range) return result;
 #endif
     return read_double_by_c(begin, end, value);
+}
+
+// The same with the exponents that Fortran writes: 1.0D+00, and 1.0-100 where three digits leave no room for
+// a letter.
+inline std::from_chars_result read_real(const char* begin, const char* end, double& value) {
+    const auto result = read_double(begin, end, value);
+    const bool exponent = result.ec == std::errc{} && result.ptr != end && is_fortran_exponent(*result.ptr);
+    return exponent ? read_fortran(begin, result, end, value) : result;
 }
 
 // Room for any double: 32 characters.

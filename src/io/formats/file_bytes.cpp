@@ -4,6 +4,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 
 namespace vox::io {
@@ -32,6 +33,25 @@ FileBytes::FileBytes(const std::string& path) {
     }
     if (std::ferror(stream.get())) fail(std::strerror(errno));
     file_ = {path, {bytes_.data(), bytes_.size()}};
+}
+
+std::string path_beside(const std::string& path, const std::string& extension) {
+    const std::string expected = path.substr(0, path.rfind('.') + 1) + extension;
+    const std::filesystem::path at = path_of(expected), folder = at.parent_path();
+    const auto lower = [](std::string name) {
+        for (char& c : name) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+        return name;
+    };
+    const std::string wanted = lower(utf8_of(at.filename()));
+    std::string found; // the first by name, whatever the order of the folder
+    std::error_code error;
+    if (std::filesystem::exists(at, error)) return expected;
+    std::filesystem::directory_iterator entry(folder.empty() ? "." : folder, error);
+    for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
+        const std::string name = utf8_of(entry->path().filename());
+        if (lower(name) == wanted && (found.empty() || name < found)) found = name;
+    }
+    return found.empty() ? expected : utf8_of(folder / path_of(found));
 }
 
 } // namespace vox::io

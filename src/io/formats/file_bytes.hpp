@@ -22,4 +22,8 @@ private:
     File file_;
 };
 
+// The path of the file beside `path`, in UTF-8, that has another extension. Its name may differ in upper and
+// lower case.
+std::string path_beside(const std::string& path, const std::string& extension);
+
 } // namespace vox::io

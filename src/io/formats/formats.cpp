@@ -39,8 +39,10 @@ struct Format {
 constexpr Format formats[] = {{"msh", VOX_IO_FORMAT_GMSH, tets<read_gmsh>},
                               {"mesh", VOX_IO_FORMAT_MEDIT, tets<read_medit>},
                               {"veg", VOX_IO_FORMAT_VEGA, tets<read_vega>},
-                              {"vtk", VOX_IO_FORMAT_VTK, tets<read_vtk>},
-                              {"vtu", VOX_IO_FORMAT_VTU, tets<read_vtu>},
+                              {"vtk", VOX_IO_FORMAT_VTK, alone<read_vtk>},
+                              {"vtu", VOX_IO_FORMAT_VTU, alone<read_vtu>},
+                              {"vtp", VOX_IO_FORMAT_VTU, alone<read_vtu>},
+                              {"inp", VOX_IO_FORMAT_ABAQUS, tets<read_abaqus>},
                               {"node", VOX_IO_FORMAT_TETGEN, nullptr}, // two files: read_tetgen
                               {"ele", VOX_IO_FORMAT_TETGEN, nullptr},
                               {"obj", VOX_IO_FORMAT_SURFACE, alone<read_obj>},
@@ -62,7 +64,7 @@ Reader surface_of_content(std::string_view bytes) {
     if (is_binary_stl(bytes)) return alone<read_stl>; // first: its header may hold any words
     const File file{"", first_text(bytes, '#')};
     const std::string_view text = file.bytes, word = Scanner(file, '#').peek();
-    if (word.ends_with("OFF") && word.size() <= 7) return alone<read_off>;
+    if (word.ends_with("OFF") && word.size() <= 9) return alone<read_off>;
     if (word == "ply") return alone<read_ply>;
     if (text.starts_with("glTF") || text.starts_with('{')) return read_gltf;
     if (is_text_stl(text)) return alone<read_stl>;
@@ -87,7 +89,7 @@ MeshData read_mesh(const File& file, const std::optional<std::string>& folder, v
             "%s: expected a %s, found neither known content nor a known extension (%s.obj .ply .stl .off "
             ".gltf .glb)",
             file.name.c_str(), surface ? "surface" : "mesh",
-            surface ? "" : ".msh .node .ele .mesh .veg .vtk .vtu, and surfaces: ");
+            surface ? "" : ".msh .node .ele .mesh .veg .vtk .vtu .vtp .inp, and surfaces: ");
     MeshData data = read(file, folder, mesh_index);
     data.format = format;
     return data;
@@ -102,8 +104,10 @@ vox_io_format format_of_content(std::string_view bytes) {
     if (text.starts_with('<') && contains_early(text, "<VTKFile")) return VOX_IO_FORMAT_VTU;
     const std::string_view behind_comments = first_text(bytes, '#');
     if (behind_comments.starts_with("MeshVersionFormatted")) return VOX_IO_FORMAT_MEDIT;
-    for (const char* keyword : {"*VERTICES", "*ELEMENTS", "*MATERIAL", "*INCLUDE"})
-        if (behind_comments.starts_with(keyword)) return VOX_IO_FORMAT_VEGA;
+    for (const char* keyword :
+         {"*VERTICES", "*ELEMENTS", "*MATERIAL", "*INCLUDE"}) // Abaqus has commas behind these
+        if (Scanner({"", behind_comments}, '#').peek() == keyword) return VOX_IO_FORMAT_VEGA;
+    if (is_abaqus(text)) return VOX_IO_FORMAT_ABAQUS;
     if (surface_of_content(bytes)) return VOX_IO_FORMAT_SURFACE;
     return VOX_IO_FORMAT_AUTO;
 }

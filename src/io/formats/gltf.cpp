@@ -50,6 +50,8 @@ private:
     };
 
     void add_scene() {
+        if (contents_.nodes.empty()) // a library of meshes: each once
+            for (std::uint32_t m = 0; m < contents_.first_primitive.size(); ++m) add_mesh(m, {});
         const std::uint32_t scene = contents_.scene;
         visited_.assign(contents_.nodes.size(), false);
         descend({}, contents_.roots, scene ? contents_.roots_end[scene - 1] : 0, contents_.roots_end[scene]);
@@ -125,8 +127,7 @@ private:
         vertices_.assign(remember ? positions.count : 0, gltf::none);
         const auto vertex = [&](std::uint64_t corner) {
             const std::uint64_t index =
-                indexed ? load_as<std::uint32_t>(indices.type, indices.bytes + indices.stride * corner,
-                                                 host_is_big_endian)
+                indexed ? load_as<std::uint32_t>(indices.type, indices.at(corner), host_is_big_endian)
                         : corner;
             if (index >= positions.count)
                 document_.fail(format("accessor %u: expected a vertex number below %llu, found %llu",
@@ -164,7 +165,7 @@ private:
 
     std::uint32_t place_vertex(const Values& positions, std::uint64_t index, std::uint32_t accessor,
                                const Placement& world) {
-        const char* const bytes = positions.bytes + positions.stride * index;
+        const char* const bytes = positions.at(index);
         double own[3], p[3];
         for (std::size_t k = 0; k < 3; ++k)
             own[k] = component(bytes + k * size_of(positions.type), positions.type, positions.normalized);

@@ -127,39 +127,85 @@ std::string_view Document::bytes_beside(const std::string& uri, const Fail& fail
     return files_.emplace_back(path).file().bytes;
 }
 
-Values Document::values(std::uint32_t number) const {
-    check_number("an accessor", number, contents_.accessors.size());
-    const Accessor& accessor = contents_.accessors[number];
-    const auto refuse_it = [&](const std::string& text, vox_result result = VOX_ERROR_FORMAT) {
-        fail(format("accessor %u: %s", number, text.c_str()), result);
-    };
-    if (accessor.sparse) refuse_it("sparse accessors are not read", VOX_ERROR_UNSUPPORTED);
-    if (accessor.view == none) refuse_it("expected a buffer view, found none");
-    check_number("a buffer view", accessor.view, contents_.views.size());
-    const BufferView& view = contents_.views[accessor.view];
+StoredRun Document::run_of(const Stored& stored, std::uint64_t count, std::uint64_t components,
+                           const std::string& what) const {
+    const auto refuse_it = [&](const std::string& text) { fail(what + ": " + text); };
+    constexpr std::uint32_t first_type = 5120;
+    constexpr NumberType types[] = {NumberType::int8,   NumberType::uint8, NumberType::int16,
+                                    NumberType::uint16, NumberType::int32, NumberType::uint32,
+                                    NumberType::float32};
+    if (stored.type < first_type || stored.type - first_type >= std::size(types))
+        refuse_it(format("expected a component type from %u to %zu, found %u", first_type,
+                         first_type + std::size(types) - 1, stored.type));
+    const NumberType type = types[stored.type - first_type];
+    const std::uint64_t element = size_of(type) * components;
+    if (stored.view == none) return {nullptr, count, element, type};
+    check_number("a buffer view", stored.view, contents_.views.size());
+    const BufferView& view = contents_.views[stored.view];
     check_number("a buffer", view.buffer, contents_.buffers.size());
     const std::string_view bytes = contents_.buffers[view.buffer].bytes;
     if (view.offset > bytes.size() || view.length > bytes.size() - view.offset)
         refuse_it(format("its buffer view has bytes %llu to %llu of buffer %u, which has %zu",
                          llu(view.offset), llu(view.offset + view.length), view.buffer, bytes.size()));
-    constexpr std::uint32_t first_type = 5120;
-    constexpr NumberType types[] = {NumberType::int8,   NumberType::uint8, NumberType::int16,
-                                    NumberType::uint16, NumberType::int32, NumberType::uint32,
-                                    NumberType::float32};
-    if (accessor.type < first_type || accessor.type - first_type >= std::size(types))
-        refuse_it(format("expected a component type from %u to %zu, found %u", first_type,
-                         first_type + std::size(types) - 1, accessor.type));
-    const NumberType type = types[accessor.type - first_type];
-    const std::uint64_t element = size_of(type) * (accessor.is_vec3 ? 3 : 1);
     const std::uint64_t stride = view.stride ? view.stride : element;
     if (stride < element)
         refuse_it(format("expected values at least %llu bytes apart, found %llu", llu(element), llu(stride)));
-    if (accessor.count == 0) return {nullptr, 0, stride, type, accessor.normalized};
-    if (accessor.offset > view.length || element > view.length - accessor.offset ||
-        accessor.count - 1 > (view.length - accessor.offset - element) / stride)
+    if (count == 0) return {nullptr, 0, stride, type};
+    if (stored.offset > view.length || element > view.length - stored.offset ||
+        count - 1 > (view.length - stored.offset - element) / stride)
         refuse_it(format("%llu values of %llu bytes do not fit into the %llu bytes of its buffer view",
-                         llu(accessor.count), llu(element), llu(view.length)));
-    return {bytes.data() + view.offset + accessor.offset, accessor.count, stride, type, accessor.normalized};
+                         llu(count), llu(element), llu(view.length)));
+    return {bytes.data() + view.offset + stored.offset, count, stride, type};
+}
+
+Values Document::values(std::uint32_t number) const {
+    check_number("an accessor", number, contents_.accessors.size());
+    const Accessor& accessor = contents_.accessors[number];
+    const std::string name = format("accessor %u", number);
+    const std::uint64_t components = accessor.is_vec3 ? 3 : 1, sparse = accessor.sparse_count;
+    Values out;
+    out.dense = run_of(accessor.values, accessor.count, components, name);
+    out.count = accessor.count;
+    out.type = out.dense.type;
+    out.normalized = accessor.normalized;
+    if (sparse == 0) {
+        if (accessor.values.view == none) fail(name + ": expected a buffer view, found none");
+        return out;
+    }
+    // Zeros take no bytes.
+    if (const std::uint64_t most = std::max<std::uint64_t>(bytes(), 1 << 17);
+        accessor.values.view == none && accessor.count > most)
+        fail(format("%s: %llu values without a buffer view are more than the limit of %llu", name.c_str(),
+                    llu(accessor.count), llu(most)),
+             VOX_ERROR_LIMIT);
+    if (accessor.sparse_indices.view == none || accessor.sparse_values.view == none)
+        fail(name + ".sparse: expected a buffer view, found none");
+    out.sparse_indices = run_of(accessor.sparse_indices, sparse, 1, name + ".sparse.indices");
+    out.sparse_values =
+        run_of({accessor.sparse_values.offset, accessor.sparse_values.view, accessor.values.type}, sparse,
+               components, name + ".sparse.values");
+    const NumberType type = out.sparse_indices.type;
+    if (type != NumberType::uint8 && type != NumberType::uint16 && type != NumberType::uint32)
+        fail(format("%s.sparse.indices: expected an unsigned type, found %u", name.c_str(),
+                    accessor.sparse_indices.type));
+    for (std::uint64_t i = 0; i < sparse; ++i) {
+        const std::uint32_t index = out.sparse_indices.integer(i);
+        if (index >= accessor.count || (i > 0 && index <= out.sparse_indices.integer(i - 1)))
+            fail(format("%s.sparse.indices: expected numbers below %llu that ascend, found %u at %llu",
+                        name.c_str(), llu(accessor.count), index, llu(i)));
+    }
+    return out;
+}
+
+const char* Values::at(std::uint64_t index) const {
+    static constexpr char zeros[3 * sizeof(float)] = {};
+    std::uint64_t first = 0, last = sparse_indices.count;
+    while (first < last) {
+        const std::uint64_t middle = (first + last) / 2, found = sparse_indices.integer(middle);
+        if (found == index) return sparse_values.at(middle);
+        (found < index ? first : last) = found < index ? middle + 1 : middle;
+    }
+    return dense.bytes ? dense.at(index) : zeros;
 }
 
 } // namespace vox::io::gltf

@@ -28,11 +28,17 @@ struct BufferView {
     std::uint32_t buffer = none, stride = 0;
 };
 
-struct Accessor {
-    std::uint64_t offset = 0, count = 0;
+struct Stored { // values in a buffer view
+    std::uint64_t offset = 0;
     std::uint32_t view = none;
     std::uint32_t type = 0; // as in the file
-    bool normalized = false, is_vec3 = false, is_scalar = false, sparse = false;
+};
+
+struct Accessor {
+    Stored values; // without a view: zeros
+    std::uint64_t count = 0, sparse_count = 0;
+    Stored sparse_indices, sparse_values; // which values are others, and what they are
+    bool normalized = false, is_vec3 = false, is_scalar = false;
 };
 
 struct Primitive {
@@ -50,7 +56,7 @@ struct SceneNode {
 // empty node or primitive, "{},", and 108 for a node with a placement, {"scale":[1,1,1]}. The deques hold
 // pieces of 512 bytes, so that none of it is ever there twice.
 struct Contents {
-    std::uint32_t scene = 0;
+    std::uint32_t scene = 0;                    // of several
     std::deque<std::uint32_t> roots, roots_end; // nodes, and where those of each scene end
     std::deque<SceneNode> nodes;
     std::deque<std::uint32_t> children;
@@ -66,12 +72,27 @@ struct Contents {
 // accessors[3].count, or where the text is no JSON.
 Contents read_contents(const File& file, std::size_t first, std::string_view text);
 
-// The bytes of an accessor, with the distance from one value to the next.
-struct Values {
+// Bytes of values, with the distance from one to the next.
+struct StoredRun {
     const char* bytes = nullptr;
     std::uint64_t count = 0, stride = 0;
     NumberType type{};
+
+    const char* at(std::uint64_t index) const { return bytes + stride * index; }
+    std::uint32_t integer(std::uint64_t index) const {
+        return load_as<std::uint32_t>(type, at(index), host_is_big_endian);
+    }
+};
+
+// The values of an accessor.
+struct Values {
+    StoredRun dense; // bytes null: zeros
+    StoredRun sparse_indices, sparse_values;
+    std::uint64_t count = 0;
+    NumberType type{};
     bool normalized = false;
+
+    const char* at(std::uint64_t index) const;
 };
 
 class Document {
@@ -93,6 +114,9 @@ private:
     using Fail = std::function<void(const std::string& text, vox_result result)>;
 
     void read_chunks();
+    // `count` values of `components` numbers. `what` names them in errors.
+    StoredRun run_of(const Stored& stored, std::uint64_t count, std::uint64_t components,
+                     const std::string& what) const;
     void load_buffer(std::size_t number);
     std::string_view bytes_beside(const std::string& uri, const Fail& fail_here);
 

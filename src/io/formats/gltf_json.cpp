@@ -21,6 +21,9 @@ constexpr std::string_view read_objects[] = {"",
                                              ".meshes[].primitives[]",
                                              ".meshes[].primitives[].attributes",
                                              ".accessors[]",
+                                             ".accessors[].sparse",
+                                             ".accessors[].sparse.indices",
+                                             ".accessors[].sparse.values",
                                              ".bufferViews[]",
                                              ".buffers[]"};
 constexpr std::string_view read_arrays[] = {
@@ -36,6 +39,7 @@ public:
 
     Contents finish() {
         if (!has_version_) fail("expected asset.version, found none");
+        if (out_.roots_end.empty() && !has_scene_) show_all();
         if (out_.scene >= out_.roots_end.size())
             fail(format("expected scene %u, found %zu scenes", out_.scene, out_.roots_end.size()));
         return std::move(out_);
@@ -55,7 +59,7 @@ public:
     bool key(const std::string& name) {
         if (skipped_ > 0) return true;
         path_.resize(levels_.back().path);
-        if (!path_.ends_with(".attributes")) object_ = path_.size();
+        if (!is_part()) object_ = path_.size();
         // A name may look like a path.
         path_.append(".").append(name.find_first_of(".[") == std::string::npos ? name : "?");
         return true;
@@ -77,6 +81,11 @@ private:
     };
 
     // ---- the way through the document ----
+
+    // Whether the object at hand is a part of the one around it, of which its members are members, too.
+    bool is_part() const {
+        return path_.ends_with(".attributes") || path_.starts_with(".accessors[].sparse");
+    }
 
     // Whether the value at hand is to be an object or an array; fails if `found` is something else.
     bool is_read(const json& found) {
@@ -100,7 +109,7 @@ private:
         if (empty.is_array()) {
             members_[path_.substr(object_ + 1)] = empty;
             path_ += "[]";
-        } else if (!path_.ends_with(".attributes")) {
+        } else if (!is_part()) {
             members_.clear();
             numbers_.clear();
         }
@@ -153,7 +162,10 @@ private:
         if (path_ == ".scenes[].nodes[]") return out_.roots.push_back(index(value, "the number of a node"));
         if (path_ == ".nodes[].children[]")
             return out_.children.push_back(index(value, "the number of a node"));
-        if (path_ == ".scene") return void(out_.scene = index(value, "the number of a scene"));
+        if (path_ == ".scene") {
+            has_scene_ = true;
+            return void(out_.scene = index(value, "the number of a scene"));
+        }
         if (members_.size() >= most_members)
             fail(format("an object has more than %zu members", most_members), VOX_ERROR_LIMIT);
         std::string name = path_.substr(object_ + 1);
@@ -191,10 +203,39 @@ private:
         const bool moved = numbers("translation", translation), turned = numbers("rotation", rotation),
                    scaled = numbers("scale", scale), has_matrix = numbers("matrix", matrix);
         if (!moved && !turned && !scaled && !has_matrix) return;
+        if (turned) normalize(rotation);
+        if (has_matrix && (matrix[3] != 0 || matrix[7] != 0 || matrix[11] != 0 || matrix[15] != 1)) {
+            member_ = "matrix";
+            fail(format("expected 0 0 0 1 as the last row, found %g %g %g %g", matrix[3], matrix[7],
+                        matrix[11], matrix[15]));
+        }
         node.placement = static_cast<std::uint32_t>(out_.placements.size());
         Placement& placement = out_.placements.emplace_back(placed(translation, rotation, scale));
         for (std::size_t i = 0; i < 12 && has_matrix; ++i)
             placement.m[i % 3][i / 3] = matrix[i / 3 * 4 + i % 3];
+    }
+
+    // Without scenes: the nodes that are not below others.
+    void show_all() {
+        std::vector<bool> is_below(out_.nodes.size());
+        for (const std::uint32_t child : out_.children)
+            if (child < is_below.size()) is_below[child] = true;
+        for (std::uint32_t n = 0; n < is_below.size(); ++n)
+            if (!is_below[n]) out_.roots.push_back(n);
+        out_.roots_end.push_back(static_cast<std::uint32_t>(out_.roots.size()));
+    }
+
+    // Programs round a unit quaternion; whatever else it is, it would also scale.
+    void normalize(double (&q)[4]) {
+        double length = 0;
+        for (const double x : q) length += x * x;
+        length = std::sqrt(length);
+        if (!(std::fabs(length - 1) <= 0.01)) {
+            member_ = "rotation";
+            fail(format("expected a quaternion of length 1, within 0.01, found %g %g %g %g, of length %g",
+                        q[0], q[1], q[2], q[3], length));
+        }
+        for (double& x : q) x /= length;
     }
 
     // Scaled, rotated by a unit quaternion (x, y, z, w), then moved.
@@ -213,10 +254,16 @@ private:
 
     void add_accessor() {
         Accessor& accessor = out_.accessors.emplace_back();
-        accessor.view = index("bufferView", "the number of a buffer view");
-        accessor.offset = count("byteOffset", "an offset", 0);
+        accessor.values = {count("byteOffset", "an offset", 0),
+                           index("bufferView", "the number of a buffer view"),
+                           index("componentType", "a component type", 0)};
         accessor.count = count("count", "a number of values", missing);
-        accessor.type = index("componentType", "a component type", 0);
+        accessor.sparse_count = count("sparse.count", "a number of values", 0);
+        accessor.sparse_indices = {count("sparse.indices.byteOffset", "an offset", 0),
+                                   index("sparse.indices.bufferView", "the number of a buffer view"),
+                                   index("sparse.indices.componentType", "a component type", 0)};
+        accessor.sparse_values = {count("sparse.values.byteOffset", "an offset", 0),
+                                  index("sparse.values.bufferView", "the number of a buffer view"), 0};
         if (const json* const normalized = member("normalized")) {
             if (!normalized->is_boolean()) expected("true or false", *normalized);
             accessor.normalized = *normalized;
@@ -226,8 +273,8 @@ private:
             accessor.is_vec3 = name == "VEC3";
             accessor.is_scalar = name == "SCALAR";
         }
-        accessor.sparse = member("sparse");
-        demand(accessor.count != missing && accessor.type != 0, "an accessor with count and componentType");
+        demand(accessor.count != missing && accessor.values.type != 0,
+               "an accessor with count and componentType");
     }
     void add_view() {
         BufferView& view = out_.views.emplace_back();
@@ -318,7 +365,7 @@ private:
     const File& file_;
     const std::size_t first_;
     Contents out_;
-    bool has_version_ = false;
+    bool has_version_ = false, has_scene_ = false;
     std::string path_;          // of the value at hand: .accessors[].count; "" for the whole
     std::vector<Level> levels_; // as many as the longest path has
     std::uint64_t skipped_ = 0; // how many objects and arrays that are skipped we are in

@@ -8,13 +8,54 @@ namespace vox::io {
 namespace {
 
 struct ElementType {
-    std::uint8_t nodes;
+    std::uint16_t nodes; // 0: not known
     CellKind cell;
     const char* name;
 };
 
-// An element type of the manual; `nodes` is 0 for a number that is not in it.
-const ElementType& element_type(std::int64_t type) {
+// The element types that the manual does not list (GmshDefines.h of Gmsh 4): `count` of them from `first` on,
+// all of one kind. Every one has its corners first.
+struct MoreTypes {
+    std::uint8_t first, count;
+    CellKind cell;
+    const char* name;
+    std::uint16_t nodes[10];
+};
+
+ElementType more_element_type(std::int64_t type) {
+    using enum CellKind;
+    static constexpr MoreTypes more[] = {
+        {32, 2, high_tet, "tetrahedra of higher order", {22, 28}},
+        {36, 6, other, "quadrangles of higher order", {16, 25, 36, 12, 16, 20}},
+        {42, 5, triangle, "triangles of higher order", {28, 36, 45, 55, 66}},
+        {47, 5, other, "quadrangles of higher order", {49, 64, 81, 100, 121}},
+        {52, 5, triangle, "triangles of higher order", {18, 21, 24, 27, 30}},
+        {57, 5, other, "quadrangles of higher order", {24, 28, 32, 36, 40}},
+        {62, 5, other, "lines of higher order", {7, 8, 9, 10, 11}},
+        {71, 5, high_tet, "tetrahedra of higher order", {84, 120, 165, 220, 286}},
+        {79, 5, high_tet, "tetrahedra of higher order", {34, 40, 46, 52, 58}},
+        {84, 3, other, "elements of one node", {1, 1, 1}},
+        {87, 3, volume, "elements of one node", {1, 1, 1}},
+        {90, 2, volume, "prisms of higher order", {40, 75}},
+        {92, 7, volume, "hexahedra of higher order", {64, 125, 216, 343, 512, 729, 1000}},
+        {99, 7, volume, "hexahedra of higher order", {32, 44, 56, 68, 80, 92, 104}},
+        {106, 5, volume, "prisms of higher order", {126, 196, 288, 405, 550}},
+        {111, 7, volume, "prisms of higher order", {24, 33, 42, 51, 60, 69, 78}},
+        {118, 7, volume, "pyramids of higher order", {30, 55, 91, 140, 204, 285, 385}},
+        {125, 7, volume, "pyramids of higher order", {21, 29, 37, 45, 53, 61, 69}},
+        {132, 1, volume, "elements of one node", {1}},
+        {137, 1, high_tet, "tetrahedra of higher order", {16}},
+        {138, 1, triangle, "triangles of higher order", {4}},
+        {139, 1, high_tet, "tetrahedra of higher order", {5}},
+        {140, 1, volume, "trihedra", {4}}};
+    for (const MoreTypes& types : more)
+        if (type >= types.first && type < types.first + types.count)
+            return {types.nodes[type - types.first], types.cell, types.name};
+    return {0, volume, "elements of unknown type"};
+}
+
+// `nodes` is 0 for a number of which nothing is known, polygons and polyhedra among them.
+ElementType element_type(std::int64_t type) {
     using enum CellKind;
     static constexpr ElementType types[] = {{0, other, ""},
                                             {2, other, "lines"},
@@ -48,11 +89,7 @@ const ElementType& element_type(std::int64_t type) {
                                             {20, high_tet, "third-order tetrahedra"},
                                             {35, high_tet, "fourth-order tetrahedra"},
                                             {56, high_tet, "fifth-order tetrahedra"}};
-    static constexpr ElementType hexahedron64 = {64, volume, "third-order hexahedra"};
-    static constexpr ElementType hexahedron125 = {125, volume, "fourth-order hexahedra"};
-    if (type == 92) return hexahedron64;
-    if (type == 93) return hexahedron125;
-    return types[type > 0 && type < 32 ? type : 0];
+    return type > 0 && type < 32 ? types[type] : more_element_type(type);
 }
 
 class GmshReader {
@@ -269,12 +306,12 @@ private:
     void text_element() {
         in_.skip_space();
         in_.integer<std::int64_t>("an element number");
-        const ElementType& type = checked_type(in_.integer<std::int64_t>("an element type"));
+        const ElementType type = checked_type(in_.integer<std::int64_t>("an element type"));
         if (version_ == 10) {
             region_ = region_of(in_.integer<std::int64_t>("a physical region"));
             in_.integer<std::int64_t>("an elementary region");
             const auto nodes = in_.integer<std::int64_t>("a number of nodes");
-            if (nodes != type.nodes)
+            if (type.nodes && nodes != type.nodes)
                 in_.fail("expected %d nodes (%s), found %lld", type.nodes, type.name, lld(nodes));
         } else {
             const auto tags = in_.integer<std::int64_t>("a number of tags");
@@ -304,7 +341,7 @@ private:
     // number, tags and nodes of each element.
     std::uint64_t binary_elements(std::uint64_t most) {
         const std::size_t start = in_.offset();
-        const ElementType& type = checked_type(in_.binary<std::int32_t>(swap_, "an element type"));
+        const ElementType type = checked_type(in_.binary<std::int32_t>(swap_, "an element type"));
         const auto count = in_.binary<std::int32_t>(swap_, "a number of elements");
         const auto tags = in_.binary<std::int32_t>(swap_, "a number of tags");
         if (count < 1 || static_cast<std::uint64_t>(count) > most || tags < 0)
@@ -349,7 +386,7 @@ private:
             begin_line();
             const std::int64_t first = short_number("an entity"), second = short_number("an entity");
             region_ = region_of(version_ == 40 ? first : second); // for now, the entity
-            const ElementType& type = checked_type(short_number("an element type"));
+            const ElementType type = checked_type(short_number("an element type"));
             const std::uint64_t count = in_block("elements in this block", binary_ ? 8 : 4);
             if (done + count > total)
                 in_.fail("expected %llu elements in all, found a block of %llu after %llu", llu(total),
@@ -422,10 +459,11 @@ private:
         in_.fail_at(start, "%llu %s are declared, but the blocks hold %llu", llu(total), what, llu(found));
     }
 
-    const ElementType& checked_type(std::int64_t number) {
-        const ElementType& type = element_type(number);
-        if (type.nodes == 0)
-            in_.fail("expected an element type of the Gmsh manual (1 to 31, 92, 93), found %lld",
+    // In text a line ends an element, so that one of unknown type can be left out.
+    ElementType checked_type(std::int64_t number) {
+        const ElementType type = element_type(number);
+        if (number < 1 || (binary_ && type.nodes == 0))
+            in_.fail("expected an element type of Gmsh with a fixed number of nodes, found %lld",
                      lld(number));
         return type;
     }

@@ -2,26 +2,49 @@
 #include "io/formats/readers.hpp"
 #include "io/formats/regions.hpp"
 
+#include <charconv>
+#include <optional>
+
 namespace vox::io {
 namespace {
 
 struct Section {
-    const char* keyword;
-    int nodes;
+    std::string_view keyword;
     CellKind cell;
     const char* name;
+    std::uint64_t (*nodes)(std::uint64_t order);
+    std::uint64_t order = 1;
 };
 
-constexpr Section sections[] = {{"Tetrahedra", 4, CellKind::tet, "tetrahedra"},
-                                {"TetrahedraP2", 10, CellKind::high_tet, "tetrahedra of ten nodes"},
-                                {"Triangles", 3, CellKind::triangle, "triangles"},
-                                {"TrianglesP2", 6, CellKind::triangle, "triangles of six nodes"},
-                                {"Edges", 2, CellKind::other, "edges"},
-                                {"Quadrilaterals", 4, CellKind::other, "quadrilaterals"},
-                                {"Hexahedra", 8, CellKind::volume, "hexahedra"},
-                                {"Hexaedra", 8, CellKind::volume, "hexahedra"},
-                                {"Prisms", 6, CellKind::volume, "prisms"},
-                                {"Pyramids", 5, CellKind::volume, "pyramids"}};
+using Order = std::uint64_t;
+constexpr Section sections[] = {
+    {"Tetrahedra", CellKind::tet, "tetrahedra", [](Order p) { return (p + 1) * (p + 2) * (p + 3) / 6; }},
+    {"Triangles", CellKind::triangle, "triangles", [](Order p) { return (p + 1) * (p + 2) / 2; }},
+    {"Edges", CellKind::other, "edges", [](Order p) { return p + 1; }},
+    {"Quadrilaterals", CellKind::other, "quadrilaterals", [](Order p) { return (p + 1) * (p + 1); }},
+    {"Hexahedra", CellKind::volume, "hexahedra", [](Order p) { return (p + 1) * (p + 1) * (p + 1); }},
+    {"Hexaedra", CellKind::volume, "hexahedra", [](Order p) { return (p + 1) * (p + 1) * (p + 1); }},
+    {"Prisms", CellKind::volume, "prisms", [](Order p) { return (p + 1) * (p + 1) * (p + 2) / 2; }},
+    {"Pyramids", CellKind::volume, "pyramids", [](Order p) { return (p + 1) * (p + 2) * (2 * p + 3) / 6; }}};
+
+// The elements that follow a keyword: Tetrahedra, TetrahedraP2, HexahedraQ3 (libMeshb, gmf). `behind` is what
+// follows that, as in TetrahedraP2Ordering.
+std::optional<Section> section_of(std::string_view keyword, std::string_view& behind) {
+    constexpr Order most = 100; // so that no number of nodes overflows
+    for (Section section : sections) {
+        if (!keyword.starts_with(section.keyword)) continue;
+        behind = keyword.substr(section.keyword.size());
+        if (behind.starts_with('P') || behind.starts_with('Q')) {
+            const char* const end = behind.data() + behind.size();
+            const auto [stop, error] = std::from_chars(behind.data() + 1, end, section.order);
+            if (error != std::errc{} || section.order < 1 || section.order > most) return std::nullopt;
+            behind = {stop, static_cast<std::size_t>(end - stop)};
+        }
+        if (section.cell == CellKind::tet && section.order > 1) section.cell = CellKind::high_tet;
+        return section;
+    }
+    return std::nullopt;
+}
 
 bool is_keyword(std::string_view word) {
     return !word.empty() && ((word[0] >= 'A' && word[0] <= 'Z') || (word[0] >= 'a' && word[0] <= 'z'));
@@ -60,16 +83,18 @@ private:
     }
 
     void read_section(const std::string& keyword) {
-        const auto* section = std::find_if(std::begin(sections), std::end(sections),
-                                           [&](const Section& s) { return keyword == s.keyword; });
+        std::string_view behind;
+        const std::optional<Section> section = section_of(keyword, behind);
         if (keyword == "Dimension") {
             const auto dimension = in_.integer<int>("a dimension");
             if (dimension != 3) in_.fail("expected dimension 3, found %d", dimension);
             have_dimension_ = true;
         } else if (keyword == "Vertices") {
             read_vertices();
-        } else if (section != std::end(sections)) {
+        } else if (section && behind.empty()) {
             read_elements(*section);
+        } else if (section && behind == "Ordering" && corners_of(section->cell)) {
+            check_ordering(*section, keyword);
         } else {
             // Corners, Ridges, Normals and others hold numbers up to the next keyword.
             for (; !in_.done() && !is_keyword(in_.peek()); in_.skip_space()) in_.word("a number");
@@ -91,15 +116,33 @@ private:
         }
     }
 
+    // How many corners of an element are read.
+    static std::uint64_t corners_of(CellKind cell) {
+        return cell == CellKind::triangle ? 3 : cell == CellKind::tet || cell == CellKind::high_tet ? 4 : 0;
+    }
+
+    // The barycentric coordinates of the nodes of an element, in the file's order, times the order of the
+    // element.
+    void check_ordering(const Section& section, const std::string& keyword) {
+        const std::uint64_t nodes = section.nodes(section.order), corners = corners_of(section.cell);
+        const auto count = in_.count("number of nodes", 2 * corners, max_count);
+        if (count != nodes) in_.fail("expected %llu nodes, found %llu", llu(nodes), llu(count));
+        for (std::uint64_t i = 0; i < nodes; ++i)
+            for (std::uint64_t k = 0; k < corners; ++k) {
+                const auto coordinate = integer<std::int64_t>("a barycentric coordinate");
+                if (i < corners && coordinate != (i == k ? static_cast<std::int64_t>(section.order) : 0))
+                    in_.unsupported("%s: elements are read whose corners come first", keyword.c_str());
+            }
+    }
+
     void read_elements(const Section& section) {
+        const std::uint64_t nodes = section.nodes(section.order), wanted = corners_of(section.cell);
         const auto count =
-            in_.count("number of elements", 2 * static_cast<std::size_t>(section.nodes + 1), max_count);
-        const bool tets = section.cell == CellKind::tet || section.cell == CellKind::high_tet;
-        const int wanted = tets ? 4 : section.cell == CellKind::triangle ? 3 : 0;
-        std::vector<std::uint32_t>& corners = tets ? data_.tets : data_.triangles;
-        if (wanted) corners.reserve(corners.size() + static_cast<std::size_t>(wanted) * count);
+            in_.count("number of elements", 2 * static_cast<std::size_t>(nodes + 1), max_count);
+        std::vector<std::uint32_t>& corners = wanted == 4 ? data_.tets : data_.triangles;
+        if (wanted) corners.reserve(corners.size() + static_cast<std::size_t>(wanted * count));
         for (std::uint64_t e = 0; e < count; ++e) {
-            for (int i = 0; i < section.nodes; ++i) {
+            for (std::uint64_t i = 0; i < nodes; ++i) {
                 const auto number = integer<std::int64_t>("a vertex number");
                 if (i >= wanted) continue;
                 if (number < 1 || number > static_cast<std::int64_t>(max_count))
@@ -111,7 +154,7 @@ private:
                 }
             }
             const std::int32_t region = region_of(integer<std::int64_t>("a reference"));
-            if (tets) data_.tet_regions.push_back(region);
+            if (wanted == 4) data_.tet_regions.push_back(region);
         }
         if (!wanted) skipped_.add(section.cell, section.name, count);
         if (section.cell == CellKind::high_tet) data_.second_order_tets += count;

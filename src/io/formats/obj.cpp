@@ -15,7 +15,7 @@ public:
         for (in_.skip_space(); !in_.done(); in_.skip_space()) {
             const std::string_view keyword = in_.word("a keyword");
             if (keyword == "v")
-                read_vertex();
+                pass_vertex();
             else if (keyword == "f")
                 read_face();
             else if (keyword == "o" || keyword == "g" || keyword == "usemtl")
@@ -56,6 +56,22 @@ private:
         return in_.real(what);
     }
 
+    void pass_vertex() {
+        ++passed_;
+        if (!read_all_) read_vertex();
+    }
+    // Positive numbers name vertices wherever they are: reads those below, once.
+    void read_vertices_below() {
+        const std::size_t here = in_.offset();
+        skip_line();
+        for (in_.skip_space(); !in_.done(); in_.skip_space()) {
+            if (in_.word("a keyword") == "v") read_vertex();
+            skip_line();
+        }
+        in_.seek(here);
+        read_all_ = true;
+    }
+
     void read_vertex() {
         double p[3];
         for (double& x : p) x = real("a coordinate");
@@ -92,10 +108,13 @@ private:
         std::int64_t number = 0;
         const auto [stop, error] = std::from_chars(word.data(), end, number);
         if (error != std::errc{} || (stop != end && *stop != '/')) in_.expected("a vertex number");
-        const auto count = static_cast<std::int64_t>(surface_.points());
-        if (number < 0) number += count + 1;
-        if (number < 1 || number > count)
-            in_.fail("expected a vertex number from 1 to %lld, of the vertices above, found %s", lld(count),
+        const auto points = [&] { return static_cast<std::int64_t>(surface_.points()); };
+        const bool backwards = number < 0;
+        if (backwards) number += passed_ + 1;
+        if (number > points() && !read_all_) read_vertices_below();
+        if (number < 1 || number > points())
+            in_.fail("expected a vertex number from 1 to %lld%s, found %s",
+                     lld(backwards ? passed_ : points()), backwards ? ", of the vertices above" : "",
                      printable(word).c_str());
         in_.word("a vertex number");
         return static_cast<std::uint32_t>(number - 1);
@@ -116,6 +135,8 @@ private:
 
     Scanner in_;
     SurfaceBuilder surface_;
+    std::int64_t passed_ = 0;                    // vertices above
+    bool read_all_ = false;                      // those below as well
     std::string_view object_, group_, material_; // the names in force
 };
 

@@ -7,12 +7,24 @@
 namespace vox::io {
 namespace {
 
-// The header word without its prefixes. ST (texture), C (colours) and N (normals) only add fields, which are
-// skipped.
-std::string_view base_keyword(std::string_view word) {
-    if (word.starts_with("ST")) word.remove_prefix(2);
-    if (word.starts_with('C')) word.remove_prefix(1);
-    if (word.starts_with('N')) word.remove_prefix(1);
+struct Header {
+    bool weights = false;    // 4: a fourth coordinate, by which the others are divided
+    bool dimensions = false; // n: their number comes first
+};
+
+// The header word without its prefixes, each once and in any order, as programs write them. ST (texture), C
+// (colours) and N (normals) only add fields behind the coordinates, which are skipped.
+std::string_view base_keyword(std::string_view word, Header& header) {
+    const auto pass = [&](std::string_view prefix, bool& found) {
+        const bool is_next = !found && word.starts_with(prefix);
+        if (is_next) word.remove_prefix(prefix.size());
+        found |= is_next;
+        return is_next;
+    };
+    bool textures = false, colours = false, normals = false;
+    while (pass("ST", textures) || pass("C", colours) || pass("N", normals) || pass("4", header.weights) ||
+           pass("n", header.dimensions)) {
+    }
     return word;
 }
 
@@ -24,11 +36,17 @@ MeshData read_off(const File& file, std::uint32_t mesh_index) {
     in.skip_space();
     if (!in.peek().ends_with("OFF")) in.expected("OFF");
     const std::string keyword(in.word("OFF"));
-    if (base_keyword(keyword) != "OFF")
-        in.unsupported("%s: only points of three dimensions are read (OFF, with ST, C or N before it)",
-                       printable(keyword, 16).c_str());
+    Header header;
+    if (base_keyword(keyword, header) != "OFF")
+        in.unsupported("%s: expected OFF, with ST, C, N, 4 or n before it", printable(keyword, 16).c_str());
     in.skip_space();
     if (in.peek() == "BINARY") in.unsupported("OFF BINARY is not read");
+    if (header.dimensions) {
+        const auto dimensions = in.integer<std::int64_t>("a number of dimensions");
+        if (dimensions != 3)
+            in.unsupported("only points of three dimensions are read, found %lld", lld(dimensions));
+        in.skip_space();
+    }
 
     const auto vertices = in.count("number of vertices", 6, max_count);
     in.skip_space();
@@ -41,6 +59,13 @@ MeshData read_off(const File& file, std::uint32_t mesh_index) {
         for (double& x : p) {
             in.skip_space();
             x = in.real("a coordinate");
+        }
+        if (header.weights) {
+            in.skip_space();
+            const double weight = in.real("a fourth coordinate");
+            for (double& x : p) x /= weight;
+            if (!is_finite(p))
+                in.fail("expected a fourth coordinate that divides the others, found %g", weight);
         }
         in.skip_line(); // normal, colour, texture
         surface.point(p);

@@ -3,6 +3,9 @@
 
 #include "io/determinant.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace vox::io {
 
 struct Placement { // 3 x 4
@@ -20,7 +23,15 @@ struct Placement { // 3 x 4
     void apply(const double p[3], double out[3]) const {
         for (int i = 0; i < 3; ++i) out[i] = m[i][0] * p[0] + m[i][1] * p[1] + m[i][2] * p[2] + m[i][3];
     }
-    bool mirrors() const { return determinant(m[0], m[1], m[2]) < 0; }
+    // By rows of length 1 or so, whose determinant is a double however small they were.
+    bool mirrors() const {
+        double rows[3][3];
+        for (int i = 0; i < 3; ++i) {
+            const double largest = std::max({std::fabs(m[i][0]), std::fabs(m[i][1]), std::fabs(m[i][2])});
+            for (int k = 0; k < 3; ++k) rows[i][k] = m[i][k] / largest;
+        }
+        return determinant(rows[0], rows[1], rows[2]) < 0;
+    }
 };
 
 } // namespace vox::io

@@ -52,13 +52,10 @@ public:
             else if (element.name == "tristrips")
                 read_strips(element);
             else
-                for (std::uint64_t i = 0; i < element.count; ++i) {
-                    begin_item();
+                for (std::uint64_t i = 0; i < element.count; ++i)
                     for (const Property& property : element.properties) skip(property);
-                    end_item();
-                }
         }
-        if (text_) in_.skip_space();
+        in_.skip_space(); // some programs end binary data with a line end, too
         if (!in_.done()) in_.expected("the end of the file after the last element");
         return surface_.finish();
     }
@@ -69,6 +66,7 @@ private:
     void read_header() {
         if (!in_.accept("ply")) in_.expected("ply");
         next_line();
+        while (in_.accept("comment") || in_.accept("obj_info")) next_line();
         if (!in_.accept("format")) in_.expected("format");
         const std::string_view format_name = in_.word("a format");
         text_ = format_name == "ascii";
@@ -159,12 +157,9 @@ private:
 
     // ---- values ----
 
-    // In text each item has a line of its own.
-    void begin_item() {
+    // Text is a sequence of words, whatever their lines.
+    void begin_value() {
         if (text_) in_.skip_space();
-    }
-    void end_item() {
-        if (text_) in_.line_end();
     }
 
     template <class Number>
@@ -172,9 +167,11 @@ private:
         return load_as<Number>(type, in_.take(size_of(type), what), swap_);
     }
     std::int64_t integer(NumberType type, const char* what) {
+        begin_value();
         return text_ ? in_.integer<std::int64_t>(what) : value<std::int64_t>(type, what);
     }
     double real(NumberType type, const char* what) {
+        begin_value();
         if (text_) return in_.real(what);
         const std::size_t at = in_.offset();
         const auto x = value<double>(type, what);
@@ -183,6 +180,7 @@ private:
     }
 
     std::uint64_t length_of_list(const Property& property) {
+        begin_value();
         const std::size_t at = in_.offset();
         const std::int64_t length = integer(property.count_type, "the length of a list");
         const std::size_t bytes = text_ ? 2 : size_of(property.type);
@@ -200,7 +198,10 @@ private:
             in_.take(values * size_of(property.type), "a property");
             return;
         }
-        for (std::uint64_t i = 0; i < values; ++i) in_.word("a value");
+        for (std::uint64_t i = 0; i < values; ++i) {
+            begin_value();
+            in_.word("a value");
+        }
     }
 
     // ---- elements ----
@@ -221,7 +222,6 @@ private:
         surface_.reserve_points(element.count);
         for (std::uint64_t v = 0; v < element.count; ++v) {
             double p[3];
-            begin_item();
             for (std::size_t i = 0; i < element.properties.size(); ++i) {
                 const auto number = static_cast<int>(i);
                 const std::size_t k = number == axis_of[0]   ? 0
@@ -233,7 +233,6 @@ private:
                 else
                     skip(element.properties[i]);
             }
-            end_item();
             surface_.point(p);
         }
         surface_.reserve(std::min(surface_.points(), in_.remaining()));
@@ -252,7 +251,6 @@ private:
                         "element %s: expected a list of integers vertex_indices, found none",
                         printable(element.name).c_str());
         for (std::uint64_t i = 0; i < element.count; ++i) {
-            begin_item();
             for (const Property& property : element.properties) {
                 if (&property != &*indices) {
                     skip(property);
@@ -260,6 +258,7 @@ private:
                 }
                 const std::uint64_t length = length_of_list(property);
                 for (std::uint64_t c = 0; c < length; ++c) {
+                    begin_value();
                     const std::size_t at = in_.offset();
                     const std::int64_t point = integer(property.type, "a vertex number");
                     if ((point < 0 || point >= static_cast<std::int64_t>(surface_.points())) &&
@@ -269,7 +268,6 @@ private:
                     visit(point);
                 }
             }
-            end_item();
             after();
         }
     }

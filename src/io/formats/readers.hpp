@@ -14,8 +14,11 @@ MeshData read_gmsh(const File& file);
 MeshData read_tetgen(const File& node, const File& ele);
 MeshData read_medit(const File& file);
 MeshData read_vega(const File& file);
-MeshData read_vtk(const File& file);
-MeshData read_vtu(const File& file);
+// Tets, or triangles where the file is a surface (POLYDATA, .vtp).
+MeshData read_vtk(const File& file, std::uint32_t mesh_index);
+MeshData read_vtu(const File& file, std::uint32_t mesh_index);
+MeshData read_abaqus(const File& file);
+bool is_abaqus(std::string_view text); // by its first keyword
 
 // Reads any format but TetGen, which needs two files. mesh_index, of surfaces, counts from 0, or is
 // all_meshes. Files that a .gltf names are looked for in `folder`; without one it must be complete.

@@ -46,10 +46,11 @@ T load(const char* data, bool swap) noexcept {
 // cancelled.
 class Scanner {
 public:
-    // `comment` begins a comment, which extends to the end of its line; 0: the format has no comments.
-    explicit Scanner(const File& file, char comment = 0)
+    // `comment` begins a comment, which extends to the end of its line; `separator` ends a word, as blanks
+    // do; 0: the format has none.
+    explicit Scanner(const File& file, char comment = 0, char separator = 0)
         : name_(file.name), progress_(file.progress), begin_(file.bytes.data()), at_(begin_),
-          end_(begin_ + file.bytes.size()), comment_(comment) {}
+          end_(begin_ + file.bytes.size()), comment_(comment), separator_(separator) {}
 
     // ---- place ----
 
@@ -105,13 +106,19 @@ public:
     std::string_view peek() noexcept {
         if (at_line_end()) return {};
         const char* stop = at_;
-        while (stop != end_ && !is_blank(*stop) && !is_line_end(*stop)) ++stop;
+        while (stop != end_ && !is_blank(*stop) && !is_line_end(*stop) && !is_separator(*stop)) ++stop;
         return {at_, static_cast<std::size_t>(stop - at_)};
     }
     std::string_view word(const char* what) {
         const std::string_view found = peek();
         if (found.empty()) expected(what);
         at_ += found.size();
+        return found;
+    }
+    bool accept_separator() noexcept {
+        skip_blanks();
+        const bool found = at_ != end_ && is_separator(*at_);
+        at_ += found;
         return found;
     }
     // Passes `text` if it is the next word.
@@ -137,7 +144,7 @@ public:
         skip_blanks();
         const char* start = at_ + (at_ != end_ && *at_ == '+');
         double value = 0;
-        const auto [stop, error] = read_double(start, end_, value);
+        const auto [stop, error] = read_real(start, end_, value);
         if (error == std::errc::invalid_argument || !at_word_end(stop)) expected(what);
         // A number too small for a double is read as zero, as by C's strtod; a number too large fails.
         if (error == std::errc::result_out_of_range && value != 0) out_of_range(what);
@@ -186,8 +193,10 @@ private:
         }
     }
     bool at_word_end(const char* c) const noexcept {
-        return c == end_ || is_blank(*c) || is_line_end(*c) || (comment_ && *c == comment_);
+        return c == end_ || is_blank(*c) || is_line_end(*c) || (comment_ && *c == comment_) ||
+               is_separator(*c);
     }
+    bool is_separator(char c) const noexcept { return separator_ && c == separator_; }
     [[noreturn]] void out_of_range(const char* what);
     void note_progress() {
         if (at_ - reported_ >= report_every) report_progress();
@@ -202,7 +211,7 @@ private:
     const char* at_;
     const char* end_;
     const char* reported_ = begin_; // the farthest place that was reported
-    char comment_;
+    char comment_, separator_;
     bool bytes_ = false;
 };
 

@@ -1,5 +1,5 @@
 // VTK legacy files, versions 1.0 to 5.1, ASCII and binary ("VTK File Formats", Kitware): DATASET
-// UNSTRUCTURED_GRID. Binary numbers are big endian.
+// UNSTRUCTURED_GRID or POLYDATA. Binary numbers are big endian.
 #include "io/formats/vtk_cells.hpp"
 
 namespace vox::io {
@@ -9,19 +9,48 @@ constexpr bool swap = !host_is_big_endian;
 
 class VtkReader {
 public:
-    explicit VtkReader(const File& file) : file_(file), in_(file) {}
+    VtkReader(const File& file, std::uint32_t mesh_index) : file_(file), in_(file), mesh_index_(mesh_index) {}
 
     MeshData read() {
         read_header();
+        read_sections();
+        if (!have_points_) in_.expected("POINTS");
+        if (surface_) return read_surface();
+        if (!have_cells_) in_.expected("CELLS");
+        if (!have_types_) in_.expected("CELL_TYPES");
+        if (types_.size() != cells_.ends.size())
+            in_.fail_at(types_at_, "expected %zu cell types, as many as cells, found %zu", cells_.ends.size(),
+                        types_.size());
+        Skipped skipped;
+        take_vtk_cells(cells_.ends, cells_.connectivity, types_, 0, data_.positions.size() / 3, data_,
+                       skipped, fail_at(cells_at_));
+        take_vtk_regions(types_, regions_, 0, data_);
+        return finished(std::move(data_), skipped, file_.name);
+    }
+
+private:
+    void read_sections() {
         while (next_keyword()) {
             const std::size_t start = in_.offset();
             const std::string keyword(in_.word("a keyword"));
             if (keyword == "POINTS") {
                 read_points();
-            } else if (keyword == "CELLS") {
+            } else if (!surface_ && keyword == "CELLS") {
+                if (have_cells_) in_.fail("expected one section CELLS, found a second one");
+                have_cells_ = true;
                 cells_at_ = start;
-                read_cells();
-            } else if (keyword == "CELL_TYPES") {
+                read_cells(cells_);
+            } else if (surface_ && (keyword == "POLYGONS" || keyword == "TRIANGLE_STRIPS")) {
+                VtkPolygons& list = keyword == "POLYGONS" ? cells_ : strips_;
+                if (!list.ends.empty())
+                    in_.fail("expected one section %s, found a second one", keyword.c_str());
+                (keyword == "POLYGONS" ? cells_at_ : strips_at_) = start;
+                read_cells(list);
+            } else if (surface_ && (keyword == "VERTICES" || keyword == "LINES")) {
+                VtkPolygons loose;
+                read_cells(loose);
+                data_.skipped_elements += loose.ends.size();
+            } else if (!surface_ && keyword == "CELL_TYPES") {
                 read_types();
             } else if (keyword == "FIELD") {
                 skip_field();
@@ -29,29 +58,34 @@ public:
                 skip_metadata();
             } else if (keyword == "POINT_DATA" || keyword == "CELL_DATA") {
                 in_.seek(start);
-                regions_ = vtk_regions(in_, binary_, ends_.size());
+                if (!surface_) regions_ = vtk_regions(in_, binary_, cells_.ends.size());
                 break;
             } else {
                 in_.seek(start);
-                in_.expected("POINTS, CELLS, CELL_TYPES, FIELD, METADATA, POINT_DATA or CELL_DATA");
+                in_.expected(surface_
+                                 ? "POINTS, POLYGONS, TRIANGLE_STRIPS, VERTICES, LINES, FIELD, METADATA, "
+                                   "POINT_DATA or CELL_DATA"
+                                 : "POINTS, CELLS, CELL_TYPES, FIELD, METADATA, POINT_DATA or CELL_DATA");
             }
         }
-        if (!have_points_) in_.expected("POINTS");
-        if (!have_cells_) in_.expected("CELLS");
-        if (!have_types_) in_.expected("CELL_TYPES");
-        if (types_.size() != ends_.size())
-            in_.fail_at(types_at_, "expected %zu cell types, as many as cells, found %zu", ends_.size(),
-                        types_.size());
-        Skipped skipped;
-        take_vtk_cells(ends_, connectivity_, types_, 0, data_.positions.size() / 3, data_, skipped,
-                       [&](std::size_t cell, const std::string& text) {
-                           in_.fail_at(cells_at_, "cell %zu: %s", cell, text.c_str());
-                       });
-        take_vtk_regions(types_, regions_, 0, data_);
-        return finished(std::move(data_), skipped, file_.name);
     }
 
-private:
+    MeshData read_surface() {
+        SurfaceBuilder surface(file_.name, surface_limits(file_.bytes.size()), mesh_index_);
+        surface.skip(data_.skipped_elements);
+        surface.reserve_points(data_.positions.size() / 3);
+        for (std::size_t i = 0; i < data_.positions.size(); i += 3) surface.point(&data_.positions[i]);
+        data_.positions = std::vector<double>();
+        take_vtk_polygons(cells_, false, 0, surface, fail_at(cells_at_));
+        take_vtk_polygons(strips_, true, 0, surface, fail_at(strips_at_));
+        return surface.finish();
+    }
+    VtkFail fail_at(std::size_t section) {
+        return [this, section](std::size_t cell, const std::string& text) {
+            in_.fail_at(section, "cell %zu: %s", cell, text.c_str());
+        };
+    }
+
     void read_header() {
         in_.skip_space();
         if (!in_.rest().starts_with("# vtk DataFile Version")) in_.expected("# vtk DataFile Version");
@@ -69,7 +103,8 @@ private:
         in_.line_end();
         in_.skip_space();
         if (!in_.accept("DATASET")) in_.expected("DATASET");
-        if (!in_.accept("UNSTRUCTURED_GRID")) in_.expected("UNSTRUCTURED_GRID");
+        surface_ = in_.accept("POLYDATA");
+        if (!surface_ && !in_.accept("UNSTRUCTURED_GRID")) in_.expected("UNSTRUCTURED_GRID or POLYDATA");
         in_.line_end();
         in_.count_bytes(binary_);
     }
@@ -120,9 +155,8 @@ private:
                 in_.fail_at(start, "point %zu: expected a coordinate, found one that is not finite", i / 3);
     }
 
-    void read_cells() {
-        if (have_cells_) in_.fail("expected one section CELLS, found a second one");
-        have_cells_ = true;
+    void read_cells(VtkPolygons& cells) {
+        std::vector<std::uint64_t>&ends = cells.ends, &list = cells.connectivity;
         const std::uint64_t first = count("number of cells", 1);
         const std::uint64_t second = count("size of the cell list", 1);
         const std::size_t start = in_.offset();
@@ -130,23 +164,22 @@ private:
         if (next_keyword() && in_.accept("OFFSETS")) {
             // Version 5.1 has `first` offsets, one more than cells, and `second` points.
             const NumberType offset_type = number_type("a number type (vtktypeint64 ...)");
-            read_numbers(offset_type, first, ends_, "offsets");
-            if (ends_.empty() || ends_[0] != 0) in_.fail("expected offsets that start with 0");
-            ends_.erase(ends_.begin());
+            read_numbers(offset_type, first, ends, "offsets");
+            if (ends.empty() || ends[0] != 0) in_.fail("expected offsets that start with 0");
+            ends.erase(ends.begin());
             in_.skip_space();
             if (!in_.accept("CONNECTIVITY")) in_.expected("CONNECTIVITY");
             const NumberType point_type = number_type("a number type (vtktypeint64 ...)");
-            read_numbers(point_type, second, connectivity_, "points of cells");
-            if (!ends_.empty() && ends_.back() != second)
-                in_.fail("expected offsets that end with %llu, found %llu", llu(second), llu(ends_.back()));
+            read_numbers(point_type, second, list, "points of cells");
+            if (!ends.empty() && ends.back() != second)
+                in_.fail("expected offsets that end with %llu, found %llu", llu(second), llu(ends.back()));
             return;
         }
         // Earlier versions have `first` cells, each as its number of points and the points, `second` numbers
         // in all.
         in_.seek(start);
-        std::vector<std::uint64_t>& list = connectivity_;
         read_numbers(NumberType::int32, second, list, "points of cells");
-        ends_.reserve(std::min(first, second));
+        ends.reserve(std::min(first, second));
         std::uint64_t from = 0, to = 0;
         for (std::uint64_t c = 0; c < first; ++c) {
             const std::uint64_t points = from < second ? list[from] : 0;
@@ -155,7 +188,7 @@ private:
                             llu(second), llu(c));
             for (std::uint64_t i = 0; i < points; ++i) list[to++] = list[from + 1 + i]; // drop the counts
             from += 1 + points;
-            ends_.push_back(to);
+            ends.push_back(to);
         }
         if (from != second)
             in_.fail_at(start, "expected the %llu cells to fill %llu numbers, found %llu", llu(first),
@@ -172,37 +205,63 @@ private:
     }
 
     // A field is its name, the number of arrays, and for each array its name, components, tuples, type and
-    // values.
+    // values; a missing one is its name alone, and metadata may follow each.
     void skip_field() {
         in_.word("a field name");
         const std::uint64_t arrays = count("number of arrays", 1);
         in_.line_end();
         for (std::uint64_t a = 0; a < arrays; ++a) {
             in_.skip_space();
-            in_.word("an array name");
-            const std::uint64_t components = count("number of components", 1);
-            const std::uint64_t tuples = count("number of tuples", 1);
-            const std::string type_name(in_.word("a number type"));
-            const std::optional<NumberType> type = vtk_number(type_name);
-            if (binary_ && !type)
-                in_.unsupported("a field of type %s in a binary file is not read",
-                                printable(type_name).c_str());
-            in_.line_end();
-            if (tuples > 0) {
-                const std::size_t size = binary_ ? size_of(*type) : 1;
-                in_.check_count("values of the array", components, size * tuples, max_count * 8,
-                                in_.offset());
-            }
-            const std::uint64_t values = components * tuples;
-            if (binary_) {
-                in_.take(values * size_of(*type), "values of the array");
+            const std::string_view name = in_.word("an array name");
+            if (name == "NULL_ARRAY") continue;
+            if (name == "METADATA") {
+                skip_metadata();
+                --a;
                 continue;
             }
+            const std::uint64_t components = count("number of components", 1);
+            const std::uint64_t tuples = count("number of tuples", 1);
+            const std::string type(in_.word("a number type"));
+            in_.line_end();
+            if (tuples > 0)
+                in_.check_count("values of the array", components, tuples, max_count * 8, in_.offset());
+            skip_values(components * tuples, type);
+        }
+    }
+
+    void skip_values(std::uint64_t values, const std::string& type_name) {
+        const bool strings = type_name == "string" || type_name == "utf8_string";
+        if (binary_ && strings) {
+            for (std::uint64_t i = 0; i < values; ++i) skip_string();
+        } else if (strings || type_name == "variant") { // a line each
+            for (std::uint64_t i = 0; i < values; ++i) in_.skip_line();
+        } else if (!binary_) {
             for (std::uint64_t i = 0; i < values; ++i) {
                 in_.skip_space();
                 in_.word("a value");
             }
+        } else if (type_name == "bit") {
+            in_.take((values + 7) / 8, "values of the array");
+        } else {
+            const std::optional<NumberType> type = vtk_number(type_name);
+            if (!type)
+                in_.unsupported("a field of type %s in a binary file is not read",
+                                printable(type_name).c_str());
+            in_.check_count("values of the array", values, size_of(*type), max_count * 8, in_.offset());
+            in_.take(values * size_of(*type), "values of the array");
         }
+    }
+
+    // The first two bits say how many bytes the length has, together with them (vtkDataWriter): 11 means one,
+    // 00 eight.
+    void skip_string() {
+        const auto first = static_cast<unsigned char>(*in_.take(1, "a string's length"));
+        const std::size_t more = (std::size_t{1} << (3 - first / 64)) - 1;
+        std::uint64_t length = first % 64;
+        for (const char c : std::string_view(in_.take(more, "a string's length"), more))
+            length = length << 8 | static_cast<unsigned char>(c);
+        in_.check_count("bytes of a string", length, 1, max_count * 8, in_.offset());
+        in_.take(length, "a string");
     }
 
     // Metadata end with an empty line.
@@ -214,15 +273,17 @@ private:
     const File& file_;
     Scanner in_;
     MeshData data_;
-    std::vector<std::uint64_t> ends_, connectivity_, types_;
+    std::uint32_t mesh_index_; // of a surface
+    VtkPolygons cells_, strips_;
+    std::vector<std::uint64_t> types_;
     RegionArray regions_;
-    std::size_t cells_at_ = 0, types_at_ = 0;
-    bool binary_ = false;
+    std::size_t cells_at_ = 0, strips_at_ = 0, types_at_ = 0;
+    bool binary_ = false, surface_ = false;
     bool have_points_ = false, have_cells_ = false, have_types_ = false;
 };
 
 } // namespace
 
-MeshData read_vtk(const File& file) { return VtkReader(file).read(); }
+MeshData read_vtk(const File& file, std::uint32_t mesh_index) { return VtkReader(file, mesh_index).read(); }
 
 } // namespace vox::io

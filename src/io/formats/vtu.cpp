@@ -1,10 +1,10 @@
-// VTK XML unstructured grids, .vtu ("VTK XML Formats", Kitware), with ASCII, base64 and appended arrays, raw
-// or compressed with zlib, headers of 32 or 64 bits, and either byte order.
+// VTK XML unstructured grids, .vtu, and surfaces, .vtp ("VTK XML Formats", Kitware), with ASCII, base64 and
+// appended arrays, raw or compressed, headers of 32 or 64 bits, and either byte order.
 #include "io/formats/base64.hpp"
+#include "io/formats/unpack.hpp"
 #include "io/formats/vtk_cells.hpp"
 
 #include <pugixml.hpp>
-#include <zlib.h>
 
 #include <cctype>
 #include <iterator>
@@ -21,15 +21,16 @@ struct Array {
 
 class VtuReader {
 public:
-    explicit VtuReader(const File& file) : file_(file) {}
+    VtuReader(const File& file, std::uint32_t mesh_index) : file_(file), mesh_index_(mesh_index) {}
 
     MeshData read() {
         parse();
         const pugi::xml_node root = document_.child("VTKFile");
         if (!root) fail({}, "expected an element VTKFile, found none");
         const std::string_view type = root.attribute("type").value();
-        if (type != "UnstructuredGrid")
-            fail(root, format("expected type=\"UnstructuredGrid\", found \"%s\"", printable(type).c_str()));
+        if (type != "UnstructuredGrid" && type != "PolyData")
+            fail(root, format("expected type=\"UnstructuredGrid\" or \"PolyData\", found \"%s\"",
+                              printable(type).c_str()));
         const std::string_view order = root.attribute("byte_order").as_string("LittleEndian");
         if (order != "LittleEndian" && order != "BigEndian")
             fail(root, format("expected a byte_order of LittleEndian or BigEndian, found \"%s\"",
@@ -41,23 +42,40 @@ public:
                               printable(header).c_str()));
         header_size_ = header == "UInt32" ? 4 : 8;
         const std::string_view compressor = root.attribute("compressor").value();
-        if (!compressor.empty() && compressor != "vtkZLibDataCompressor")
+        const std::optional<Packing> packing = packing_of(compressor);
+        if (!packing)
             fail(root,
-                 format("compressor %s: only vtkZLibDataCompressor is read", printable(compressor).c_str()),
+                 format("compressor %s: vtkZLibDataCompressor, vtkLZ4DataCompressor and "
+                        "vtkLZMADataCompressor are read",
+                        printable(compressor).c_str()),
                  VOX_ERROR_UNSUPPORTED);
-        compressed_ = !compressor.empty();
+        if (!can_unpack(*packing))
+            fail(root,
+                 format("%s: this vox_io was built without liblzma (CMake option VOX_IO_LZMA)",
+                        compressor.data()),
+                 VOX_ERROR_UNSUPPORTED);
+        packing_ = *packing;
 
-        const pugi::xml_node grid = root.child("UnstructuredGrid");
-        if (!grid) fail(root, "expected an element UnstructuredGrid, found none");
+        const std::string grid_name(type);
+        const pugi::xml_node grid = root.child(grid_name.c_str());
+        if (!grid) fail(root, format("expected an element %s, found none", grid_name.c_str()));
         const auto pieces = grid.children("Piece");
         const auto count = static_cast<double>(std::distance(pieces.begin(), pieces.end()));
         if (count == 0) fail(grid, "expected an element Piece, found none");
         double done = 0;
+        // What is packed may hold more than its size; of no ordinary surface it is 16 times as much.
+        SurfaceBuilder surface(file_.name,
+                               surface_limits(file_.bytes.size() * (packing_ == Packing::none ? 1 : 16)),
+                               mesh_index_);
         for (const pugi::xml_node piece : pieces) {
-            read_piece(piece, file_.progress.part(done / count, (done + 1) / count));
+            const Progress progress = file_.progress.part(done / count, (done + 1) / count);
+            if (type == "PolyData")
+                read_surface_piece(piece, progress, surface);
+            else
+                read_piece(piece, progress);
             ++done;
         }
-        return finished(std::move(data_), skipped_, file_.name);
+        return type == "PolyData" ? surface.finish() : finished(std::move(data_), skipped_, file_.name);
     }
 
 private:
@@ -151,7 +169,7 @@ private:
             fail(array,
                  format("%s: %llu are declared, but only %zu bytes follow", what, llu(number), available));
         };
-        if (!compressed_) {
+        if (packing_ == Packing::none) {
             if (values > available / value_size) too_many("values", values);
             const std::size_t size = values * value_size;
             const std::string head = decoded(array, source, base64, header_size_);
@@ -169,8 +187,7 @@ private:
         if (blocks > available / header_size_) too_many("blocks", blocks);
         const std::uint64_t block_size = header_word(start, 1);
         const std::uint64_t last = header_word(start, 2);
-        // zlib compresses to no less than 1/1032 of the size.
-        if (values > available * 1032 / value_size) too_many("values", values);
+        if (values / most_unpacked(packing_) > available / value_size) too_many("values", values);
         const std::size_t size = values * value_size;
         const std::size_t header = (3 + blocks) * header_size_;
         const std::string head = decoded(array, source, base64, header);
@@ -189,13 +206,10 @@ private:
             if (wanted > size - to)
                 fail(array, format("expected %zu bytes of values, found blocks of more", size));
             const std::uint64_t own = header_word(head, 3 + b);
-            uLongf length = static_cast<uLongf>(wanted);
-            const int status =
-                uncompress(reinterpret_cast<Bytef*>(out.data() + to), &length,
-                           reinterpret_cast<const Bytef*>(all.data() + from), static_cast<uLong>(own));
-            if (status != Z_OK || length != wanted)
-                fail(array, format("block %llu: expected %llu bytes packed by zlib, found other data (%s)",
-                                   llu(b), llu(wanted), zError(status)));
+            const std::string wrong =
+                unpack(packing_, std::string_view(all).substr(from, own), out.data() + to, wanted);
+            if (!wrong.empty())
+                fail(array, format("block %llu: expected %llu bytes %s", llu(b), llu(wanted), wrong.c_str()));
             from += own;
             to += wanted;
         }
@@ -246,9 +260,9 @@ private:
         return array;
     }
 
-    void read_piece(const pugi::xml_node& piece, const Progress& progress) {
+    // Appends the points of a piece to the positions; returns how many.
+    std::uint64_t read_points(const pugi::xml_node& piece, const Progress& progress) {
         const std::uint64_t points = number_of(piece, "NumberOfPoints");
-        const std::uint64_t cells = number_of(piece, "NumberOfCells");
         const std::uint64_t first_vertex = data_.positions.size() / 3;
         if (first_vertex + points > max_count)
             fail(piece, format("more than %llu points in all", llu(max_count)), VOX_ERROR_LIMIT);
@@ -257,31 +271,50 @@ private:
             if (!array) fail(piece, "expected a DataArray in an element Points, found none");
             const auto components = array.attribute("NumberOfComponents").as_ullong(3);
             if (components != 3) fail(array, format("expected 3 components, found %llu", llu(components)));
-            append(open(array, 3 * points), 3 * points, data_.positions, progress.part(0, 0.4));
+            append(open(array, 3 * points), 3 * points, data_.positions, progress);
             for (std::uint64_t i = 3 * first_vertex; i < data_.positions.size(); ++i)
                 if (!std::isfinite(data_.positions[i]))
                     fail(array, format("point %llu: expected a coordinate, found one that is not finite",
                                        llu(i / 3 - first_vertex)));
         }
-        if (cells == 0) return;
-        const pugi::xml_node node = piece.child("Cells");
-        if (!node) fail(piece, "expected an element Cells, found none");
-        std::vector<std::uint64_t> ends, types, connectivity;
+        return points;
+    }
+
+    // The offsets and the connectivity of `cells` cells.
+    VtkPolygons read_list(const pugi::xml_node& node, std::uint64_t cells, const Progress& progress) {
+        VtkPolygons out;
+        std::vector<std::uint64_t>& ends = out.ends;
         const pugi::xml_node offsets = cell_array(node, "offsets");
-        append(open(offsets, cells), cells, ends, progress.part(0.4, 0.5));
+        append(open(offsets, cells), cells, ends, progress.part(0, 0.2));
         for (std::uint64_t c = 0; c < cells; ++c)
             if (ends[c] < (c == 0 ? 0 : ends[c - 1]) || ends[c] > 8 * max_count)
                 fail(offsets, format("expected offsets that ascend, found %lld at cell %llu",
                                      static_cast<long long>(ends[c]), llu(c)));
-        const pugi::xml_node kinds = cell_array(node, "types");
-        append(open(kinds, cells), cells, types, progress.part(0.5, 0.6));
         const pugi::xml_node list = cell_array(node, "connectivity");
-        append(open(list, ends.back()), ends.back(), connectivity, progress.part(0.6, 1));
+        append(open(list, ends.back()), ends.back(), out.connectivity, progress.part(0.2, 1));
+        return out;
+    }
+    VtkFail fail_at(const pugi::xml_node& node) const {
+        return [this, list = node.find_child_by_attribute("DataArray", "Name", "connectivity")](
+                   std::size_t cell, const std::string& text) {
+            fail(list, format("cell %zu: %s", cell, text.c_str()));
+        };
+    }
+
+    void read_piece(const pugi::xml_node& piece, const Progress& progress) {
+        const std::uint64_t cells = number_of(piece, "NumberOfCells");
+        const std::uint64_t first_vertex = data_.positions.size() / 3;
+        const std::uint64_t points = read_points(piece, progress.part(0, 0.4));
+        if (cells == 0) return;
+        const pugi::xml_node node = piece.child("Cells");
+        if (!node) fail(piece, "expected an element Cells, found none");
+        const VtkPolygons list = read_list(node, cells, progress.part(0.4, 0.9));
+        std::vector<std::uint64_t> types;
+        const pugi::xml_node kinds = cell_array(node, "types");
+        append(open(kinds, cells), cells, types, progress.part(0.9, 1));
         const std::size_t tets_before = data_.tets.size() / 4;
-        take_vtk_cells(ends, connectivity, types, first_vertex, points, data_, skipped_,
-                       [&](std::size_t cell, const std::string& text) {
-                           fail(list, format("cell %zu: %s", cell, text.c_str()));
-                       });
+        take_vtk_cells(list.ends, list.connectivity, types, first_vertex, points, data_, skipped_,
+                       fail_at(node));
         take_vtk_regions(types, regions_of(piece, cells), tets_before, data_);
     }
 
@@ -306,12 +339,35 @@ private:
         return found;
     }
 
+    void read_surface_piece(const pugi::xml_node& piece, const Progress& progress, SurfaceBuilder& surface) {
+        const std::size_t first_point = surface.points();
+        const std::uint64_t points = read_points(piece, progress.part(0, 0.4));
+        surface.begin_mesh();
+        surface.reserve_points(first_point + points);
+        for (std::size_t i = 0; i < 3 * points; i += 3) surface.point(&data_.positions[i]);
+        data_.positions.clear();
+        const auto cells_of = [&](const char* number) {
+            return piece.attribute(number) ? number_of(piece, number) : 0;
+        };
+        for (const char* loose : {"NumberOfVerts", "NumberOfLines"}) surface.skip(cells_of(loose));
+        for (const bool strips : {false, true}) {
+            const std::uint64_t cells = cells_of(strips ? "NumberOfStrips" : "NumberOfPolys");
+            if (cells == 0) continue;
+            const pugi::xml_node node = piece.child(strips ? "Strips" : "Polys");
+            if (!node) fail(piece, format("expected an element %s, found none", strips ? "Strips" : "Polys"));
+            const VtkPolygons list =
+                read_list(node, cells, strips ? progress.part(0.8, 1) : progress.part(0.4, 0.8));
+            take_vtk_polygons(list, strips, first_point, surface, fail_at(node));
+        }
+    }
+
     const File& file_;
+    std::uint32_t mesh_index_; // of a surface
     pugi::xml_document document_;
     std::string_view appended_;
     bool appended_base64_ = false;
     bool swap_ = false;
-    bool compressed_ = false;
+    Packing packing_ = Packing::none;
     std::size_t header_size_ = 4;
     MeshData data_;
     Skipped skipped_;
@@ -319,6 +375,6 @@ private:
 
 } // namespace
 
-MeshData read_vtu(const File& file) { return VtuReader(file).read(); }
+MeshData read_vtu(const File& file, std::uint32_t mesh_index) { return VtuReader(file, mesh_index).read(); }
 
 } // namespace vox::io

@@ -64,6 +64,27 @@ std::vector<std::uint32_t> boundary_facets(const vox_io_mesh_view& mesh) {
     return boundary;
 }
 
+// Visits samples of a thin triangle, at most `spacing` apart, in rows along its longest side: as many as its
+// area needs. Returns false for one that is not thin.
+template <class Visit>
+bool for_each_row_sample(Vector3d a, Vector3d b, Vector3d c, double longest, double spacing,
+                         const Visit& visit) {
+    while ((b - a).norm() < longest) { // to its longest side, (a, b)
+        std::swap(a, b);
+        std::swap(b, c);
+    }
+    const double height = (b - a).cross(c - a).norm() / longest;
+    if (!(8 * height < longest)) return false;
+    const auto parts_of = [&](double length) { return std::clamp(std::ceil(length / spacing), 2.0, 1000.0); };
+    const double rows = parts_of(height);
+    for (double row = 0; row <= rows; ++row) {
+        const Vector3d first = a + (c - a) * (row / rows), last = b + (c - b) * (row / rows);
+        const double parts = parts_of((last - first).norm());
+        for (double part = 0; part <= parts; ++part) visit(first + (last - first) * (part / parts));
+    }
+    return true;
+}
+
 // The largest distance from sample points on the triangles, at most `spacing` apart, to the triangles of the
 // tree.
 double largest_distance(const vox_io_mesh_view& mesh, const std::uint32_t* triangles, std::size_t count,
@@ -73,12 +94,15 @@ double largest_distance(const vox_io_mesh_view& mesh, const std::uint32_t* trian
         const Vector3d a = corner(mesh, triangles[3 * t]), b = corner(mesh, triangles[3 * t + 1]),
                        c = corner(mesh, triangles[3 * t + 2]);
         const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+        const auto visit = [&](const Vector3d& p) {
+            largest = std::max(largest, tree.squared_distance(p, largest));
+        };
+        if (for_each_row_sample(a, b, c, longest, spacing, visit)) continue;
         // At least two parts a side; at most a thousand, to bound the work for very large triangles.
         const int parts = static_cast<int>(std::clamp(std::ceil(longest / spacing), 2.0, 1000.0));
         for (int i = 0; i <= parts; ++i)
             for (int j = 0; i + j <= parts; ++j) {
-                const Vector3d p = a + (b - a) * (double(i) / parts) + (c - a) * (double(j) / parts);
-                largest = std::max(largest, tree.squared_distance(p, largest));
+                visit(a + (b - a) * (double(i) / parts) + (c - a) * (double(j) / parts));
             }
     }
     return std::sqrt(largest);

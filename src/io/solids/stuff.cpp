@@ -270,12 +270,15 @@ private:
 
 void check_tet_count(const NodeSet& inside, const Frame& frame, std::uint32_t coarsen,
                      std::uint64_t max_tets) {
-    // There are more uniform tets than nodes inside, and each merging turns at most eight tets into one.
+    // Six uniform tets for each node, and more than one at any boundary; each merging turns at most eight
+    // into one.
     if (inside.size() >> std::min(3 * coarsen, 31u) > max_tets)
         throw_error(
             VOX_ERROR_LIMIT,
-            "%u lattice points inside make more than %llu tets (max_tets): choose larger cells than %g",
-            inside.size(), llu(max_tets), 2 * frame.half_cell);
+            "%u lattice points inside make about %llu tets%s, more than %llu (max_tets): choose larger cells "
+            "than %g",
+            inside.size(), llu(6 * std::uint64_t{inside.size()}), coarsen ? " before they are merged" : "",
+            llu(max_tets), 2 * frame.half_cell);
 }
 
 MeshData stuff(const SolidShape& body, std::uint32_t coarsen, std::uint64_t max_tets,

@@ -95,6 +95,21 @@ struct Crossing {
     }
 };
 
+// What the line v cuts out of the triangle, rounded outwards: a long thin one across the lattice fills little
+// of its box.
+std::array<std::int64_t, 2> cut_of_row(const std::array<Flat, 3>& p, std::int64_t v) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Flat &a = p[k], &b = p[(k + 1) % 3];
+        if (v < std::min(a.v, b.v) || v > std::max(a.v, b.v)) continue;
+        const auto u = [](std::int64_t x) { return static_cast<double>(x); };
+        const double at = a.v == b.v ? u(a.u) : u(a.u) + u(b.u - a.u) * (u(v - a.v) / u(b.v - a.v));
+        low = std::min({low, at, a.v == b.v ? u(b.u) : at});
+        high = std::max({high, at, a.v == b.v ? u(b.u) : at});
+    }
+    return {static_cast<std::int64_t>(std::floor(low)) - 1, static_cast<std::int64_t>(std::ceil(high)) + 1};
+}
+
 std::int64_t round_up(std::int64_t x, std::int64_t step) { // step a power of two
     return (x + step - 1) & ~(step - 1);
 }
@@ -154,13 +169,13 @@ LatticeLines cast(unsigned direction, const std::vector<IntPoint>& points,
         if (whole == 0) continue; // parallel to the lines
         const bool after =
             shifted_above(points[triangle[0]], points[triangle[1]], points[triangle[2]]) == (whole > 0);
-        const auto [low_u, high_u] = std::minmax({p[0].u, p[1].u, p[2].u});
         const auto [low_v, high_v] = std::minmax({p[0].v, p[1].v, p[2].v});
         // In lattice units, u and v have the same parity for lines along an axis, and are both even along a
         // diagonal.
         const std::int64_t step_v = diagonal ? 2 * unit : unit;
         for (std::int64_t v = round_up(low_v, step_v); v <= high_v; v += step_v) {
             const std::int64_t odd = (v >> shift) & 1 ? unit : 0;
+            const auto [low_u, high_u] = cut_of_row(p, v);
             for (std::int64_t u = round_up(low_u - odd, 2 * unit) + odd; u <= high_u; u += 2 * unit) {
                 const Flat q = {u, v};
                 const std::int64_t w0 = area(p[1], p[2], q), w1 = area(p[2], p[0], q),

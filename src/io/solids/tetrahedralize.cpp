@@ -63,6 +63,37 @@ MeshData run(const Attempt& attempt, const Progress& progress) {
     return mesh;
 }
 
+// What rounds of half the cell size have reached. Where two in a row came closer by about the same factor,
+// the next ones will, too.
+class Approach {
+public:
+    explicit Approach(const vox_io_tetrahedralize_desc& desc) : desc_(desc) {}
+
+    // Throws LIMIT if that needs many more tets than there may be, so that nobody waits for it.
+    void check(double cell, std::uint64_t tets, double distance) {
+        const double factor = distance_ / distance, before = factor_;
+        distance_ = distance;
+        factor_ = factor;
+        constexpr double least = 1.5,
+                         most = 4.5; // linear at edges and tips: 2; where the surface is smooth: 4
+        if (!(std::min(factor, before) > least && std::max(factor, before) < most)) return;
+        const double halvings =
+            std::ceil(std::log(distance / desc_.max_distance) / std::log(std::max(factor, before)));
+        const double needed = static_cast<double>(tets) * std::pow(4, halvings);
+        constexpr double margin = 4;
+        if (needed > margin * static_cast<double>(desc_.max_tets))
+            throw_error(VOX_ERROR_LIMIT,
+                        "cells of %g, %llu tets, come within %g of the surface, and cells of half the size "
+                        "%.3g times "
+                        "as close; %g (max_distance) would take about %.2g tets, more than %llu (max_tets)",
+                        cell, llu(tets), distance, factor, desc_.max_distance, needed, llu(desc_.max_tets));
+    }
+
+private:
+    const vox_io_tetrahedralize_desc& desc_;
+    double distance_ = 0, factor_ = 0; // of the round before
+};
+
 } // namespace
 
 MeshData tetrahedralize(const vox_io_mesh_view& surface, const vox_io_tetrahedralize_desc& desc) {
@@ -75,6 +106,7 @@ MeshData tetrahedralize(const vox_io_mesh_view& surface, const vox_io_tetrahedra
     double cell = desc.cell > 0 ? desc.cell : longest / 50;
     if (!std::isfinite(longest) || !(cell / 2 >= std::numeric_limits<double>::min()))
         refuse(format("no cells of %g fit a surface that is %g long", cell, longest));
+    Approach approach(desc);
     const bool to_distance = desc.max_distance > 0 && desc.kind == VOX_IO_SOLID_STUFFED;
     for (std::uint32_t halvings = 0;; ++halvings, cell /= 2) {
         // The number of rounds is not known, so each counts as half of what is left.
@@ -98,6 +130,7 @@ MeshData tetrahedralize(const vox_io_mesh_view& surface, const vox_io_tetrahedra
                         "than %llu tets (max_tets) or %d cells along an axis",
                         cell, llu(mesh.tets.size() / 4), reached, desc.max_distance, llu(desc.max_tets),
                         max_cells);
+        if (!mesh.tets.empty()) approach.check(cell, mesh.tets.size() / 4, reached);
     }
 }
 

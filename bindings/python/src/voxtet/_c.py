@@ -202,6 +202,7 @@ class IoFormat(enum.IntEnum):
     VTU = 6
     SURFACE = 7
     ASSIMP = 8
+    ABAQUS = 9
 
 
 class IoLoadFlags(enum.IntFlag):

@@ -296,10 +296,10 @@ pub const VOX_IO_FORMAT_TETGEN: vox_io_format = 2;
 pub const VOX_IO_FORMAT_MEDIT: vox_io_format = 3;
 /// .veg
 pub const VOX_IO_FORMAT_VEGA: vox_io_format = 4;
-/// legacy .vtk, 2.0 to 5.1; ASCII and binary
+/// legacy .vtk, 2.0 to 5.1; ASCII and binary; tets, or POLYDATA: triangles, no tets
 pub const VOX_IO_FORMAT_VTK: vox_io_format = 5;
-/// XML .vtu: ASCII, base64, appended; raw or zlib. Reading it is UNSUPPORTED in a library that is built without pugixml
-/// and zlib (docs/file-formats.md).
+/// XML .vtu, and .vtp: triangles, no tets; ASCII, base64, appended; raw, zlib, LZ4 or LZMA. Reading it is UNSUPPORTED
+/// in a library that is built without pugixml and zlib, or for LZMA without liblzma (docs/file-formats.md).
 pub const VOX_IO_FORMAT_VTU: vox_io_format = 6;
 /// .stl, .obj, .ply, .off, .gltf, .glb; triangles, no tets
 pub const VOX_IO_FORMAT_SURFACE: vox_io_format = 7;
@@ -307,6 +307,8 @@ pub const VOX_IO_FORMAT_SURFACE: vox_io_format = 7;
 /// without end and fill its memory. So AUTO never chooses it, and a library that is built without it, as is the default
 /// (docs/file-formats.md), answers UNSUPPORTED.
 pub const VOX_IO_FORMAT_ASSIMP: vox_io_format = 8;
+/// .inp; also of CalculiX
+pub const VOX_IO_FORMAT_ABAQUS: vox_io_format = 9;
 
 /// Flags of a vox_io_load_desc.
 pub type vox_io_load_flags = u32;
@@ -1383,7 +1385,8 @@ pub struct vox_io_tetrahedralize_desc {
     pub max_tets: u64,
     /// STUFFED: largest Hausdorff distance to the surface, as measured by vox_io_mesh_measure. Cells at the boundary
     /// are halved until the distance is met, while those inside keep the size `cell`; thin details may need many tets.
-    /// 0: cells are not halved, and no distance is guaranteed.
+    /// Fails with LIMIT as soon as the way the distance falls would take more than four times max_tets. 0: cells are
+    /// not halved, and no distance is guaranteed.
     pub max_distance: f64,
     /// STUFFED: how many times cells away from the boundary may be merged, eight into one. 0: all tets have the same
     /// size. The boundary does not change.
