@@ -88,7 +88,7 @@ void print_info(const Info& info) {
     std::printf("  %-18s %s\n", "format", vox_io_format_string(report.format));
     print_count("vertices", report.vertices);
     print_count("tetrahedra", report.tets);
-    if (info.regions > 0) print_count("regions", info.regions);
+    if (info.regions > 1) print_count("regions", info.regions);
     print_count("surface triangles", report.boundary_facets);
     print_count("components", report.components);
     print_number("volume", report.volume);

@@ -317,7 +317,8 @@ static inline vox_result vox_mesh_bind_doubles(vox_grid* grid, vox_body body, co
 
 /* Finds all contacts of the bodies as they are now, and whatever the flags ask for. This replaces the results of the
  * previous step. If the step fails there are no results, and the grid stays usable. A body that has not moved costs
- * little more than reading its positions. In the steady state a step allocates no memory.
+ * little more than reading its positions. In the steady state a step allocates no memory; but the first search for a
+ * closest point in a body makes that body's tree, whenever that is, and vox_grid_reserve does not.
  * Errors: INVALID_STATE (a mesh without positions), NON_FINITE, LIMIT, INVALID_ARGUMENT (doubles read as floats; a
  * task system that broke its rules), BUDGET, OUT_OF_MEMORY. vox_grid_get_failure names the body. */
 VOX_API vox_result vox_grid_step(vox_grid* grid);

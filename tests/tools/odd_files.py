@@ -98,7 +98,9 @@ class OddFiles(Files):
     def test_regions(self):
         self.assertEqual(run_json("info", self.mixed)["meshes"][0]["regions"], 1)
         self.assertEqual(run_json("info", self.other)["meshes"][0]["regions"], 0)
-        self.assertIn(b"  regions            1\n", run("info", self.mixed).stdout)
+        self.assertNotIn(b"regions", run("info", self.mixed).stdout)
+        two = self.write("two.mesh", OTHER.replace("Tetrahedra\n1\n1 2 3 4 0", "Tetrahedra\n2\n1 2 3 4 5\n1 2 4 3 -1"))
+        self.assertIn(b"  regions            2\n", run("info", two).stdout)
 
     def test_the_reason_alone(self):
         """Where a reader of the library's own refuses a file, it is not followed by what assimp thinks of it."""

@@ -172,7 +172,7 @@ MeshData finished(MeshData data, const Skipped& skipped, const std::string& name
                                     number == 1 ? "" : "s", number == 1 ? "was" : "were", kind.c_str()));
     if (!data.tet_regions.empty()) data.tet_regions.resize(data.tets.size() / 4); // where a file has no more
     if (std::count(data.tet_regions.begin(), data.tet_regions.end(), 0) == std::ssize(data.tet_regions))
-        data.tet_regions = {};
+        data.tet_regions = std::vector<std::int32_t>(); // `= {}` would keep its room
     if (!data.tets.empty()) return data;
     std::string text = format("%s: expected tetrahedra, found none", name.c_str());
     if (!data.triangles.empty()) text += format(" (but %zu triangles)", data.triangles.size() / 3);

@@ -1600,9 +1600,10 @@ extern "C" {
     ) -> vox_result;
     /// Finds all contacts of the bodies as they are now, and whatever the flags ask for. This replaces the results of
     /// the previous step. If the step fails there are no results, and the grid stays usable. A body that has not moved
-    /// costs little more than reading its positions. In the steady state a step allocates no memory. Errors:
-    /// INVALID_STATE (a mesh without positions), NON_FINITE, LIMIT, INVALID_ARGUMENT (doubles read as floats; a task
-    /// system that broke its rules), BUDGET, OUT_OF_MEMORY. vox_grid_get_failure names the body.
+    /// costs little more than reading its positions. In the steady state a step allocates no memory; but the first
+    /// search for a closest point in a body makes that body's tree, whenever that is, and vox_grid_reserve does not.
+    /// Errors: INVALID_STATE (a mesh without positions), NON_FINITE, LIMIT, INVALID_ARGUMENT (doubles read as floats; a
+    /// task system that broke its rules), BUDGET, OUT_OF_MEMORY. vox_grid_get_failure names the body.
     pub fn vox_grid_step(grid: *mut vox_grid) -> vox_result;
     /// Steps many different grids, several at a time: for many small scenes. worker_count and `tasks` are those of
     /// vox_grid_desc; each grid is stepped by one thread and should have a worker_count of 0 itself. If a grid fails,
