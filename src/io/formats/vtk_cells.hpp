@@ -37,7 +37,8 @@ inline void check_vtk_cell(std::uint64_t start, std::uint64_t end, std::size_t s
 inline std::uint64_t checked_vtk_point(std::uint64_t point, std::uint64_t points, std::size_t cell,
                                        const VtkFail& fail) {
     if (point >= points)
-        fail(cell, format("expected a point from 0 to %lld, found %lld", lld(points) - 1, lld(point)));
+        fail(cell, format("expected a point from 0 to %lld, found %lld", static_cast<long long>(points) - 1,
+                          static_cast<long long>(point)));
     return point;
 }
 
