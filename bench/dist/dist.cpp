@@ -1,6 +1,6 @@
 // What a step of bodies on many ranks sends, beside what one grid bins and beside a floor:
-// docs/evidence/distributed.md. Counts, so no machine matters. usage: bench_dist [TETS]: of each rank in the scenes
-// that grow; default 100000
+// docs/evidence/distributed.md. Counts, so no machine matters. usage: bench_dist [TETS]: of each rank in the
+// scenes that grow; default 100000
 #include "dist/ranks.hpp" // of tests/
 #include "dist/whole.hpp"
 #include "scenes/counters.h"

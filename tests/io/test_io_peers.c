@@ -264,7 +264,7 @@ START_TEST(vtk_fields) {
     gives("a.vtk",
           VTK "FIELD f 3\nauthor 1 2 string\nAn%20author\n\nNULL_ARRAY\nMETADATA\nINFORMATION 0\n\nv 1 1 "
               "variant\n14 x y\n" ONE_TET,
-          1, 1.0 / 6, "belongs to no element");
+          1, 1.0 / 6, "belongs to no tet");
     gives("a.vtk",
           VTK "FIELD f 2\nflags 1 9 bit\n0 1 0 1 0 1 0 1 1\nMETADATA\nINFORMATION 0\n\nt 1 1 "
               "signed_char\n-1\n" ONE_TET,

@@ -11,7 +11,8 @@ typedef struct turns {
     int in_turn;
 } turns;
 
-static inline void* take_turns(vox_task* task, uint64_t items, uint64_t min_range, void* context, void* user) {
+static inline void* take_turns(vox_task* task, uint64_t items, uint64_t min_range, void* context,
+                               void* user) {
     const turns* t = (const turns*)user;
     const uint64_t size = !t->in_turn ? items : min_range ? min_range : 1;
     uint32_t worker = 0;
