@@ -1635,7 +1635,8 @@ namespace Voxtet
         public double* velocities;
         /// <summary>vertex_count</summary>
         public double* masses;
-        /// <summary>3 * vertex_count: positions rounded to float, which the grid borrows</summary>
+        /// <summary>3 * vertex_count: positions rounded to float; the grid borrows them, or `positions` once floats
+        /// round by more than 2^-14 of a mean edge, far from the origin</summary>
         public float* grid_positions;
         /// <summary>4 * tet_count</summary>
         public uint* tets;

@@ -1523,7 +1523,8 @@ pub struct vox_sim_body_view {
     pub velocities: *const f64,
     /// vertex_count
     pub masses: *const f64,
-    /// 3 * vertex_count: positions rounded to float, which the grid borrows
+    /// 3 * vertex_count: positions rounded to float; the grid borrows them, or `positions` once floats round by more
+    /// than 2^-14 of a mean edge, far from the origin
     pub grid_positions: *const f32,
     /// 4 * tet_count
     pub tets: *const u32,
