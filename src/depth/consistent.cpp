@@ -69,9 +69,9 @@ public:
         if (out.depth > 0) return VOX_DEPTH_AMBIGUOUS;
         const Vec3d straight = way_ + depth_ * direction_; // to the surface
         const Stretch stretch(straight);
-        out.depth = stretch.length;
-        if (!(out.depth > 0)) return VOX_DEPTH_TOUCHING; // at a neighbour that is on the surface
-        out.set(out.depth, stretch.direction);
+        if (!(stretch.length > 0)) return VOX_DEPTH_TOUCHING; // at a neighbour that is on the surface
+        const double inverse = 1 / stretch.length;
+        out.set(stretch.length, stretch.length > 1e-140 ? inverse * straight : stretch.direction);
         return VOX_DEPTH_AMBIGUOUS;
     }
 
