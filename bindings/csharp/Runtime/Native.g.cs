@@ -1275,7 +1275,8 @@ namespace Voxtet
         public Positions from;
         /// <summary>at time 1, in the same format; none: everything stands still</summary>
         public Positions to;
-        /// <summary>grows the box of a vertex on all sides, rounded outward; may be infinite</summary>
+        /// <summary>grows the box of a vertex on all sides, rounded outward to the next number of the format, by one
+        /// number also where it is 0; may be infinite</summary>
         public double radius;
     }
 

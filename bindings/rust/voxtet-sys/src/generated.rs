@@ -1154,7 +1154,8 @@ pub struct vox_motion {
     pub from: vox_positions,
     /// at time 1, in the same format; none: everything stands still
     pub to: vox_positions,
-    /// grows the box of a vertex on all sides, rounded outward; may be infinite
+    /// grows the box of a vertex on all sides, rounded outward to the next number of the format, by one number also
+    /// where it is 0; may be infinite
     pub radius: f64,
 }
 
