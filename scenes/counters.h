@@ -15,7 +15,7 @@
     X(carried_contacts) X(penetrations) X(leaving_edges) X(edge_tests) X(closest_searches) \
     X(closest_tests) X(disabled_bodies) X(filtered) X(cell_size_changes) X(unknown_penetrations) \
     X(carried_penetrations) X(bodies_without_tets) X(edge_contacts) X(carried_edge_contacts) \
-    X(edge_candidates) X(proximities) X(carried_proximities) X(passages) X(constraints)
+    X(edge_candidates) X(proximities) X(carried_proximities) X(passages) X(face_candidates) X(constraints)
 #define GRID_TIMES(X) \
     X(step_ns) X(bin_ns) X(broad_ns) X(narrow_ns) X(contacts_ns) X(depth_ns) X(constraints_ns) \
     X(pairs_ns) X(stream_ns) X(winding_ns) X(broad_phase_ns) X(windows_ns) X(lookup_ns) X(decide_ns) \

@@ -119,7 +119,8 @@ typedef struct vox_sim_body_view {
     const double* positions;     /* 3 * vertex_count */
     const double* velocities;    /* 3 * vertex_count */
     const double* masses;        /* vertex_count */
-    const float* grid_positions; /* 3 * vertex_count: positions rounded to float, which the grid borrows */
+    const float* grid_positions; /* 3 * vertex_count: positions rounded to float; the grid borrows them, or `positions`
+                                    once floats round by more than 2^-14 of a mean edge, far from the origin */
     const uint32_t* tets;        /* 4 * tet_count */
     uint64_t vertex_count;
     uint64_t tet_count;

@@ -95,7 +95,8 @@ typedef struct vox_motion {
     uint32_t flags;     /* vox_motion_flags, combined with | */
     vox_positions from; /* at time 0 */
     vox_positions to;   /* at time 1, in the same format; none: everything stands still */
-    double radius;      /* grows the box of a vertex on all sides, rounded outward; may be infinite */
+    double radius;      /* grows the box of a vertex on all sides, rounded outward to the next number of the format, by one
+                           number also where it is 0; may be infinite */
 } vox_motion;
 
 static inline vox_motion vox_default_motion(void) {

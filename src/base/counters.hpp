@@ -47,6 +47,7 @@ struct Counters {
     std::uint64_t carried_proximities = 0; // part of `proximities` carried over from the step before
     std::uint64_t constraints = 0;         // that were found last; 0 where none were looked for
     std::uint64_t impacts = 0;             // 0 without previous positions (vox_mesh_bind_previous_positions)
+    std::uint64_t face_candidates = 0;     // vertices and faces of which a distance or a time was computed
 };
 
 // Nanoseconds. stream_ns to decide_ns are the stages of the fast engine, and bin_ns, broad_ns and narrow_ns
@@ -112,6 +113,7 @@ inline constexpr NamedCounter named_counters[] = {
     {"carried_proximities", &Counters::carried_proximities},
     {"constraints", &Counters::constraints},
     {"passages", &Counters::impacts},
+    {"face_candidates", &Counters::face_candidates},
 };
 inline constexpr NamedTime named_times[] = {
     {"step_ns", &Profile::step_ns},

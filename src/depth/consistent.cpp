@@ -7,6 +7,7 @@
 #include "base/vectors.hpp"
 #include "depth/closest.hpp"
 #include "depth/walk.hpp"
+#include "exact/facet_normal.hpp"
 #include "exact/predicates.hpp"
 
 #include <array>
@@ -67,9 +68,10 @@ public:
         out.set(depth_ + dot(way_, direction_), direction_);
         if (out.depth > 0) return VOX_DEPTH_AMBIGUOUS;
         const Vec3d straight = way_ + depth_ * direction_; // to the surface
-        out.depth = length(straight);
-        if (!(out.depth > 0)) return VOX_DEPTH_TOUCHING; // at a neighbour that is on the surface
-        out.set(out.depth, (1 / out.depth) * straight);
+        const Stretch stretch(straight);
+        if (!(stretch.length > 0)) return VOX_DEPTH_TOUCHING; // at a neighbour that is on the surface
+        const double inverse = 1 / stretch.length;
+        out.set(stretch.length, stretch.length > 1e-140 ? inverse * straight : stretch.direction);
         return VOX_DEPTH_AMBIGUOUS;
     }
 

@@ -6,6 +6,7 @@
 #include "base/parallel.hpp"
 #include "base/room.hpp"
 #include "base/vectors.hpp"
+#include "exact/facet_normal.hpp"
 
 #include <algorithm>
 #include <tuple>
@@ -163,8 +164,9 @@ void Fallback::search_one(const Scene& scene, const Item& item, const SurfaceTre
                                               : tree->find_in_fold(p, hit.vertex, tet, state, closest));
     // For a vertex in its own mesh it has to be the point of the fold, which this one need not be.
     if (found && !(self && is_crossing)) scene.penetrations.closest_of(item.place) = closest.at.triangle;
-    Vec3d direction = found ? normalised(closest.way) : Vec3d{0, 0, 0};
-    if (length(direction) > 0) return out.set(length(closest.way), direction);
+    const Stretch stretch(found ? closest.way : Vec3d{0, 0, 0});
+    Vec3d direction = stretch.direction;
+    if (stretch.length > 0) return out.set(stretch.length, direction);
     if (found) { // on the surface of a part of b that overlaps the part with the hit
         point_state = VOX_DEPTH_TOUCHING;
         worker.normals.begin(solid);

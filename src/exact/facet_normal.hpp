@@ -15,6 +15,18 @@ inline Vec3d scaled(const Vec3d& v) noexcept {
     return largest > 0 ? Vec3d{v.x / largest, v.y / largest, v.z / largest} : v;
 }
 
+// The length of a vector of any size, and its direction; both zero for zero.
+struct Stretch {
+    explicit Stretch(const Vec3d& v) noexcept : length(vox::length(v)), direction(normalised(v)) {
+        if (length > 1e-140) return;
+        direction = normalised(scaled(v));
+        length = largest_coordinate(v) * vox::length(scaled(v));
+    }
+
+    double length;
+    Vec3d direction;
+};
+
 // The unit normal of triangle abc out of the tetrahedron abcd. If that is flat, the normal points away from
 // p; if p is in the plane of the triangle, too, to the side from which abc is counter-clockwise. If the
 // triangle has no area, the normal is along `way`, or (0, 0, 1) if that is zero.

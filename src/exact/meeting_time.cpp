@@ -64,17 +64,93 @@ bool is_separated(const CornerPositions& begin, const CornerPositions& end, cons
     return true;
 }
 
+Vec3d normal_of(const CornerPositions& corners) noexcept {
+    return cross(corners.at[1] - corners.at[0], corners.at[2] - corners.at[0]);
+}
+
 // True if the two certainly do not meet during an interval.
 bool stay_apart(const SeenMotion& motion, double begin_time, double end_time) noexcept {
     const CornerPositions begin = corners_at(motion, begin_time), end = corners_at(motion, end_time);
     if (stays_on_one_side(begin, end)) return true;
+    // Close to the triangle, rounding errors turn the way to the closest point more than the normal.
     const CornerPositions middle = corners_at(motion, 0.5 * begin_time + 0.5 * end_time);
-    const Vec3d way = closest_seen_from({0, 0, 0}, middle.at[0], middle.at[1], middle.at[2]).way;
-    if (is_separated(begin, end, way)) return true;
-    // Close to the triangle, rounding errors turn `way` more than the normal.
     const Vec3d* c = middle.at;
-    const Vec3d normal = cross(c[1] - c[0], c[2] - c[0]);
-    return is_separated(begin, end, dot(normal, c[0]) > 0 ? normal : -1.0 * normal);
+    const Vec3d normal = normal_of(middle);
+    if (is_separated(begin, end, dot(normal, c[0]) > 0 ? normal : -1.0 * normal)) return true;
+    return is_separated(begin, end, closest_seen_from({0, 0, 0}, c[0], c[1], c[2]).way);
+}
+
+// The intervals are those of a binary tree, in their order in time.
+struct Interval {
+    double begin = 0, length = 1;
+    int divisions = 0;
+
+    double end() const noexcept { return begin + length; }
+    double middle() const noexcept { return begin + 0.5 * length; }
+    Interval earlier() const noexcept { return {begin, 0.5 * length, divisions + 1}; }
+    Interval later() const noexcept { return {middle(), 0.5 * length, divisions + 1}; }
+};
+
+double volume_at(const CornerPositions& corners) noexcept { return dot(normal_of(corners), corners.at[0]); }
+
+// About when the point goes through the plane within an interval, by the secant method; no_meeting if it does
+// not, or not close to the triangle.
+double guess(const SeenMotion& motion, const Interval& interval) noexcept {
+    double low = interval.begin, high = interval.end(), time = low;
+    double at_low = volume_at(corners_at(motion, low)), at_high = volume_at(corners_at(motion, high));
+    if (!(at_low * at_high < 0)) return no_meeting;
+    CornerPositions corners;
+    for (int i = 0; i < 8; ++i) {
+        const double last = time;
+        time = low + at_low / (at_low - at_high) * (high - low);
+        corners = corners_at(motion, time);
+        const double volume = volume_at(corners);
+        if (std::abs(time - last) < 0x1p-46 || volume == 0) break;
+        (volume * at_low > 0 ? low : high) = time;
+        (volume * at_low > 0 ? at_low : at_high) = volume;
+    }
+    const Vec3d way = closest_seen_from({0, 0, 0}, corners.at[0], corners.at[1], corners.at[2]).way;
+    return largest_coordinate(way) < 0x1p-40 ? time : no_meeting;
+}
+
+// The end of what can be excluded at once, from `begin` on, before a guessed time.
+double exclude_before(const SeenMotion& motion, double begin, double guessed) noexcept {
+    const CornerPositions met = corners_at(motion, guessed);
+    const Vec3d normal = normal_of(met);
+    for (const double before : {0x1p-42, 0x1p-36, 0x1p-24}) {
+        const double end = std::floor((guessed - before) * 0x1p42) * 0x1p-42;
+        if (!(end > begin)) return begin;
+        const CornerPositions first = corners_at(motion, begin), last = corners_at(motion, end);
+        if (is_separated(first, last, dot(normal, last.at[0]) > 0 ? normal : -1.0 * normal)) return end;
+    }
+    return begin;
+}
+
+// The beginning of the first interval that is neither excluded nor divided.
+double first_left(const SeenMotion& motion, double latest) noexcept {
+    constexpr int most_jumps = 24; // divisions after which none pays
+    Interval stack[2 * most_divisions + 2];
+    int size = 1, tested = 0;
+    double excluded = 0; // what is before it
+    while (size > 0) {
+        Interval interval = stack[--size];
+        const double begin = std::max(interval.begin, excluded);
+        if (begin > latest) return no_meeting;
+        if (interval.end() <= excluded || stay_apart(motion, interval.begin, interval.end())) continue;
+        if (interval.divisions == most_divisions || ++tested == most_intervals) return begin;
+        if (interval.divisions < most_jumps) {
+            const double guessed = guess(motion, interval);
+            if (guessed != no_meeting) excluded = exclude_before(motion, begin, guessed);
+            // Where there is a meeting, no interval around it can be excluded.
+            while (excluded > begin && interval.divisions < 40) {
+                if (interval.middle() > excluded) stack[size++] = interval.later();
+                interval = interval.middle() > excluded ? interval.earlier() : interval.later();
+            }
+        }
+        stack[size++] = interval.later();
+        stack[size++] = interval.earlier();
+    }
+    return no_meeting;
 }
 
 } // namespace
@@ -90,23 +166,7 @@ double meeting_time(const SeenMotion& given, double latest) noexcept {
         motion.from[i] = times_power(given.from[i], power);
         motion.to[i] = times_power(given.to[i], power);
     }
-    // The intervals are those of a binary tree, in their order in time.
-    struct Interval {
-        double begin;
-        int divisions;
-    };
-    Interval stack[most_divisions + 2] = {{0, 0}};
-    int size = 1, tested = 0;
-    while (size > 0) {
-        const Interval interval = stack[--size];
-        if (interval.begin > latest) return no_meeting;
-        const double length = std::ldexp(1.0, -interval.divisions);
-        if (stay_apart(motion, interval.begin, interval.begin + length)) continue;
-        if (interval.divisions == most_divisions || ++tested == most_intervals) return interval.begin;
-        stack[size++] = {interval.begin + 0.5 * length, interval.divisions + 1};
-        stack[size++] = {interval.begin, interval.divisions + 1};
-    }
-    return no_meeting;
+    return first_left(motion, latest);
 }
 
 } // namespace vox

@@ -4,6 +4,7 @@
 
 #include "exact/meeting_time.hpp"
 #include "grid/least_faces.hpp"
+#include "surface/cull.hpp"
 
 #include <vox/vox.h>
 
@@ -30,6 +31,9 @@ struct Impact : SurfaceMeeting {
 
 struct MovingTile {
     std::array<Vec3d, SurfaceTile::most_vertices> from, to;
+    bool has_lanes = false; // made when they are first needed
+    CullFrame frame;
+    CullTile lanes; // of the faces
 };
 
 class Impacts final : public LeastFaces<SurfaceMeeting, MovingTile> {
@@ -42,7 +46,10 @@ public:
     bool any_bound() const noexcept { return !bound_.empty(); }
 
     void find(const StepScene& scene, KeptFeatures& kept);
-    void count(Counters& counters) const noexcept { counters.impacts = all().size(); }
+    void count(Counters& counters) const noexcept {
+        counters.impacts = all().size();
+        count_candidates(counters);
+    }
     void add_to(ConstraintSources& sources, depth::SurfaceTrees& trees, Workers& workers) const noexcept;
     void clear() noexcept {
         LeastFaces::clear();
@@ -63,6 +70,7 @@ private:
     void leave_out(std::uint32_t a, std::uint32_t b, Array<std::uint32_t>& vertices) const override;
     void load(Worker& worker) const override;
     void look(Worker& worker, const NearFaces& near) const override;
+    std::uint32_t leave_close(Worker& worker, std::uint32_t faces, const Vec3d& from, const Vec3d& to) const;
     SurfaceMeeting element_of(const Worker& worker, const Least& least) const override;
     Vec3d before(std::uint32_t body, std::uint32_t vertex) const noexcept;
     void list_impacts();

@@ -78,6 +78,7 @@ protected:
             std::uint32_t least; // its index; none_yet
         };
         Array<OfVertex> of_vertex;
+        std::uint64_t candidates = 0; // of the step
         // The tile that it is at.
         const SurfaceTile* tile = nullptr;
         Tile read;
@@ -100,7 +101,10 @@ protected:
         scene_ = scene;
         most_ = most;
         workers_.grow(scene.workers->count());
-        for (Worker& worker : workers_) worker.found.clear();
+        for (Worker& worker : workers_) {
+            worker.found.clear();
+            worker.candidates = 0;
+        }
         found_.clear();
     }
     // Carries over those of the step before between bodies at rest: the only ones of their vertex and mesh.
@@ -114,7 +118,11 @@ protected:
     // Replaces all() by what was found.
     void end_step(const char* what) {
         std::size_t count = found_.size();
-        for (const Worker& worker : workers_) count += worker.found.size();
+        candidates_ = 0;
+        for (const Worker& worker : workers_) {
+            count += worker.found.size();
+            candidates_ += worker.candidates;
+        }
         reserve_sparingly(found_, count);
         for (const Worker& worker : workers_)
             found_.insert(found_.end(), worker.found.begin(), worker.found.end());
@@ -126,6 +134,8 @@ protected:
         put_in_order();
         check_contact_count(all_.size(), what);
     }
+
+    void count_candidates(Counters& counters) const noexcept { counters.face_candidates += candidates_; }
 
     const StepScene& scene() const noexcept { return scene_; } // of the last step
     Vec3d position(std::uint32_t body, std::uint32_t vertex) const noexcept {
@@ -206,6 +216,7 @@ private:
     StepScene scene_{};
     double most_ = 0;
     PerWorker<Worker> workers_;
+    std::uint64_t candidates_ = 0;
     Array<Found> found_;
     Array<std::uint32_t> order_;
     Array<Element> all_;

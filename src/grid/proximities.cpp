@@ -51,6 +51,7 @@ void Proximities::find(const StepScene& scene, KeptFeatures& kept) {
 void Proximities::count(Counters& counters) const noexcept {
     counters.proximities = all().size();
     counters.carried_proximities = carried_;
+    count_candidates(counters);
 }
 
 void Proximities::add_to(ConstraintSources& sources, depth::SurfaceTrees&, Workers&) const noexcept {
@@ -107,6 +108,7 @@ void Proximities::look(Worker& worker, const NearFaces& near) const {
             if (candidates[i].least < candidates[next].least) next = i;
         const auto [least, face] = candidates[next];
         if (least > most) return;
+        ++worker.candidates;
         candidates[next] = candidates[--count];
         const auto& [u, v, w] = worker.pair.surface->faces[worker.tile->first_face + face];
         const SeenPoint seen = closest_seen_from(p, points[u], points[v], points[w]);

@@ -1,6 +1,40 @@
 #include "grid/surface_search.hpp"
 
+#include "base/vectors.hpp"
+
+#include <cmath>
+
 namespace vox {
+
+// Proof. At either end of the step the differences of points of a and of b fill a box around `middle` that
+// reaches `half` from it; in between, the difference of two points is on the straight way from one to the
+// other. So it stays further than `reach` from zero if along some vector w, at both ends,
+//     w . middle - |w| . half > reach |w|,    where |w| . half sums the products of magnitudes.
+// How w was found does not matter: here it is each axis, and then the point where the middles come closest.
+// The products are in doubles, whose rounding is less than that of a coordinate to a float by 2^-25.
+bool stay_apart(const MovingBox& a, const MovingBox& b, float reach) noexcept {
+    double middle[2][3], half[2][3];
+    const auto take = [&](int end, const Box& of_a, const Box& of_b) {
+        for (int i = 0; i < 3; ++i) {
+            const double low = double{of_a.lo[i]} - double{of_b.hi[i]},
+                         high = double{of_a.hi[i]} - double{of_b.lo[i]};
+            middle[end][i] = 0.5 * (low + high);
+            half[end][i] = 0.5 * (high - low) + double{reach};
+        }
+    };
+    take(0, a.from, b.from);
+    take(1, a.to, b.to);
+    for (int i = 0; i < 3; ++i)
+        if ((middle[0][i] > half[0][i] && middle[1][i] > half[1][i]) ||
+            (middle[0][i] < -half[0][i] && middle[1][i] < -half[1][i]))
+            return true;
+    const Vec3d from = vector_of(middle[0]), to = vector_of(middle[1]), way = to - from;
+    const double squared = dot(way, way);
+    const double closest = squared > 0 ? std::clamp(-dot(from, way) / squared, 0.0, 1.0) : 0;
+    const Vec3d w = from + closest * way;
+    const Vec3d size{std::abs(w.x), std::abs(w.y), std::abs(w.z)};
+    return dot(w, from) > dot(size, vector_of(half[0])) && dot(w, to) > dot(size, vector_of(half[1]));
+}
 
 void SearchedBodies::begin(const StepScene& scene) {
     bodies_.clear();

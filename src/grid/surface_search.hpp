@@ -32,6 +32,21 @@ struct BlockBoxes {
     const Box *blocks, *groups;
 };
 
+// Where something is at both ends of a step; in between, each of its points is on a straight way.
+struct MovingBox {
+    Box from, to;
+};
+inline constexpr MovingBox empty_moving_box{empty_box, empty_box};
+
+inline void add(MovingBox& a, const MovingBox& b) noexcept {
+    add(a.from, b.from);
+    add(a.to, b.to);
+}
+
+// Whether two that move certainly stay further apart than `reach`, which also covers what their coordinates
+// are rounded by.
+bool stay_apart(const MovingBox& a, const MovingBox& b, float reach) noexcept;
+
 // A body as a search sees it. A vertex may be anywhere on its way from `before` to `at`.
 struct SearchedBody {
     const float* at; // packed, rounded to floats
@@ -40,6 +55,7 @@ struct SearchedBody {
     Box box;                                       // around all vertices
     const float* before = nullptr;                 // as `at`; null for one that stands still
     float grow = 0;                                // of two bodies, the sum is how far apart boxes can be
+    MovingBox moving_box = empty_moving_box;       // around all vertices; of bodies in a search for meetings
 
     // Set for bodies of which tiles are reached.
     static constexpr std::uint32_t not_reached = ~0u;
@@ -56,6 +72,9 @@ struct SearchedBody {
         Box box_there = box_at(at, vertex);
         if (before) add(box_there, box_at(before, vertex));
         return box_there;
+    }
+    MovingBox moving_vertex(std::uint32_t vertex) const noexcept {
+        return {box_at(before ? before : at, vertex), box_at(at, vertex)};
     }
     // Calls visit(i, box) for vertices[i], i < count. What stands still gets a loop of its own.
     template <class Visit>
@@ -177,17 +196,22 @@ struct GroupedBoxes {
         reserve_growing(boxes, boxes.size() + 1);
         boxes.push_back(box);
     }
-    // Calls visit(i) for those that overlap `box`, in their order.
-    template <class Visit>
-    void for_overlaps(const Box& box, const Visit& visit) const {
+    // Calls visit(i) for those that overlap `box`, in their order, but of groups that do enter(group) only.
+    template <class Enter, class Visit>
+    void for_overlaps(const Box& box, const Enter& enter, const Visit& visit) const {
         for (std::size_t group = 0; group < groups.size(); ++group) {
-            if (!overlap(groups[group], box)) continue;
+            if (!overlap(groups[group], box) || !enter(group)) continue;
             const std::size_t first = group * group_size;
             const auto count =
                 static_cast<std::uint32_t>(std::min<std::size_t>(group_size, boxes.size() - first));
             for (std::uint64_t met = fast::find_overlaps(&boxes[first], count, box); met; met &= met - 1)
                 visit(first + static_cast<std::size_t>(std::countr_zero(met)));
         }
+    }
+    template <class Visit>
+    void for_overlaps(const Box& box, const Visit& visit) const {
+        for_overlaps(
+            box, [](std::size_t) { return true; }, visit);
     }
 };
 

@@ -63,8 +63,10 @@ void VertexFaceSearch::find_meeting(const StepScene& scene, std::span<const Posi
     bodies_.begin(scene);
     move_bodies(scene, previous);
     find_pairs(scene, {scene.bodies, {}});
-    erase_if(pairs_,
-             [&](const fast::Pair& pair) { return !previous[pair.a].data && !previous[pair.b].data; });
+    erase_if(pairs_, [&](const fast::Pair& pair) {
+        const SearchedBody &a = bodies_[pair.a], &b = bodies_[pair.b];
+        return !moves(pair) || stay_apart(a.moving_box, b.moving_box, a.grow + b.grow);
+    });
     search(scene, kept);
 }
 
@@ -75,6 +77,7 @@ void VertexFaceSearch::move_bodies(const StepScene& scene, std::span<const Posit
     };
     std::size_t floats = 0, blocks = 0, groups = 0;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
+        bodies_[b].moving_box = {bodies_[b].box, bodies_[b].box};
         if (!previous[b].data) continue;
         floats += 3 * std::size_t{scene.bodies[b].vertex_count};
         blocks += bodies_[b].block_count();
@@ -94,9 +97,12 @@ void VertexFaceSearch::move_bodies(const StepScene& scene, std::span<const Posit
         out.before = packed;
         out.blocks = {boxes, around};
         out.box = empty_box;
+        out.moving_box = empty_moving_box;
         for (std::uint32_t block = 0; block < out.block_count(); ++block) {
-            for (std::uint32_t v = out.first_of_block[block]; v < out.first_of_block[block + 1]; ++v)
+            for (std::uint32_t v = out.first_of_block[block]; v < out.first_of_block[block + 1]; ++v) {
                 add(boxes[block], out.vertex_box(v));
+                add(out.moving_box, out.moving_vertex(v));
+            }
             add(around[block / fast::group_blocks], boxes[block]);
             add(out.box, boxes[block]);
         }
@@ -157,7 +163,7 @@ std::size_t VertexFaceSearch::list(const fast::Pair& pair, Lists& lists) const {
     }
     leave_out(pair.a, pair.b, lists.vertices);
     if (lists.vertices.empty()) return 0;
-    make_runs(a, lists);
+    make_runs(a, moves(pair), lists);
     Box around_vertices = empty_box;
     for (const Box& group : lists.runs.groups) add(around_vertices, group);
     const Box reached = grown(around_vertices, reach);
@@ -166,9 +172,11 @@ std::size_t VertexFaceSearch::list(const fast::Pair& pair, Lists& lists) const {
 }
 
 // From the blocks and the vertices that are left of them.
-void VertexFaceSearch::make_runs(const SearchedBody& body, Lists& lists) const {
+void VertexFaceSearch::make_runs(const SearchedBody& body, bool moves, Lists& lists) const {
     lists.first_of_run.clear();
     lists.runs.clear();
+    lists.moving_runs.clear();
+    lists.moving_groups.clear();
     const Array<std::uint32_t>& vertices = lists.vertices;
     auto block = lists.blocks.begin();
     for (std::uint32_t i = 0; i < vertices.size();) {
@@ -177,8 +185,19 @@ void VertexFaceSearch::make_runs(const SearchedBody& body, Lists& lists) const {
         reserve_growing(lists.first_of_run, lists.first_of_run.size() + 2);
         lists.first_of_run.push_back(i);
         Box run = empty_box;
+        const std::uint32_t first = i;
         for (; i < vertices.size() && vertices[i] < end; ++i) add(run, body.vertex_box(vertices[i]));
         lists.runs.push_back(run);
+        if (!moves) continue;
+        MovingBox moving = empty_moving_box;
+        for (std::uint32_t k = first; k < i; ++k) add(moving, body.moving_vertex(vertices[k]));
+        reserve_growing(lists.moving_runs, lists.moving_runs.size() + 1);
+        lists.moving_runs.push_back(moving);
+        if (lists.moving_groups.size() < lists.runs.groups.size()) {
+            reserve_growing(lists.moving_groups, lists.runs.groups.size());
+            lists.moving_groups.push_back(empty_moving_box);
+        }
+        add(lists.moving_groups.back(), moving);
     }
     lists.first_of_run.push_back(static_cast<std::uint32_t>(vertices.size()));
 }
@@ -189,6 +208,7 @@ void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Lists& lists, 
     constexpr std::uint32_t at_once = 64;
     const SearchedBody &a = bodies_[pair.a], &b = bodies_[pair.b];
     const float reach = a.grow + b.grow;
+    const bool is_moving = moves(pair);
     FaceBoxes faces;
     // Vertices in the box of a tile, by their places.
     std::array<std::uint32_t, at_once> places, met_faces;
@@ -198,6 +218,11 @@ void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Lists& lists, 
     for (std::size_t i = first; i < last; ++i) {
         const SurfaceTile& tile = b.features->tiles[lists.tiles[i]];
         const Box box = grown(bodies_.tile_boxes(pair.b)[lists.tiles[i]], reach);
+        MovingBox moving = empty_moving_box;
+        if (is_moving)
+            for (std::uint32_t v = 0; v < tile.vertex_count; ++v)
+                add(moving, b.moving_vertex(b.features->vertices[tile.first_vertex + v]));
+        const auto may_meet = [&](const MovingBox& other) { return !stay_apart(other, moving, reach); };
         bool is_loaded = false;
         std::uint32_t count = 0;
         const auto compare = [&] {
@@ -216,11 +241,16 @@ void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Lists& lists, 
             if (found > 0) visit(tile, std::span(near).first(found), worker);
             count = 0;
         };
-        lists.runs.for_overlaps(box, [&](std::size_t run) {
+        const auto enter = [&](std::size_t group) {
+            return !is_moving || may_meet(lists.moving_groups[group]);
+        };
+        lists.runs.for_overlaps(box, enter, [&](std::size_t run) {
+            if (is_moving && !may_meet(lists.moving_runs[run])) return;
             for (std::uint32_t k = lists.first_of_run[run]; k < lists.first_of_run[run + 1]; ++k) {
                 places[count] = k;
                 boxes[count] = a.vertex_box(lists.vertices[k]);
-                count += overlap(boxes[count], box);
+                count += overlap(boxes[count], box) &&
+                         (!is_moving || may_meet(a.moving_vertex(lists.vertices[k])));
                 if (count == at_once) compare();
             }
         });

@@ -56,22 +56,28 @@ private:
 
     struct Lists {
         explicit Lists(std::pmr::memory_resource* memory)
-            : tiles(memory), blocks(memory), vertices(memory), first_of_run(memory), runs(memory) {}
+            : tiles(memory), blocks(memory), vertices(memory), first_of_run(memory), runs(memory),
+              moving_runs(memory), moving_groups(memory) {}
         auto buffers() {
-            return std::tuple_cat(runs.buffers(), std::tie(tiles, blocks, vertices, first_of_run));
+            return std::tuple_cat(
+                runs.buffers(), std::tie(tiles, blocks, vertices, first_of_run, moving_runs, moving_groups));
         }
 
         Array<std::uint32_t> tiles, blocks;
         Array<std::uint32_t> vertices;     // of body a, in runs: those of a block
         Array<std::uint32_t> first_of_run; // in vertices, and the end
         GroupedBoxes runs;
+        Array<MovingBox> moving_runs, moving_groups; // the same; none where both bodies stand still
     };
 
     void move_bodies(const StepScene& scene, std::span<const Positions> previous);
     void find_pairs(const StepScene& scene, const fast::PairRules& rules);
     void search(const StepScene& scene, KeptFeatures& kept);
+    bool moves(const fast::Pair& pair) const noexcept {
+        return bodies_[pair.a].before || bodies_[pair.b].before;
+    }
     std::size_t list(const fast::Pair& pair, Lists& lists) const;
-    void make_runs(const SearchedBody& body, Lists& lists) const;
+    void make_runs(const SearchedBody& body, bool moves, Lists& lists) const;
     void search_tiles(const fast::Pair& pair, const Lists& lists, std::size_t first, std::size_t last,
                       std::uint32_t worker);
 

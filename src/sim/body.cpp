@@ -256,10 +256,15 @@ void set_state(SoftBody& body, const double* positions, const double* velocities
 }
 
 void write_grid_positions(SoftBody& body) {
+    body.most_rounded = 0;
     for (std::size_t v = 0; v < body.positions.size(); ++v)
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            body.grid_positions[3 * v + axis] =
-                static_cast<float>(body.positions[v][static_cast<Eigen::Index>(axis)]);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double exact = body.positions[v][static_cast<Eigen::Index>(axis)];
+            const float rounded = body.grid_positions[3 * v + axis] = static_cast<float>(exact);
+            body.most_rounded = std::max(body.most_rounded, std::abs(exact - double{rounded}));
+        }
 }
+
+bool is_far_away(const SoftBody& body) noexcept { return body.most_rounded > 0x1p-14 * body.mean_edge; }
 
 } // namespace vox::sim

@@ -48,8 +48,10 @@ struct SoftBody {
     Array<Vec3> previous; // positions at the beginning of the substep
     Array<Vec3> velocities;
     Array<double> masses;
-    Array<double> inverse_masses; // all 0 for a fixed body
-    Array<float> grid_positions;  // 3 a particle; the grid borrows them
+    Array<double> inverse_masses;  // all 0 for a fixed body
+    Array<float> grid_positions;   // 3 a particle; the grid borrows them, or `positions`
+    double most_rounded = 0;       // a coordinate of these
+    bool is_exact_in_grid = false; // it borrows `positions`
 
     // constraints
     Array<std::uint32_t> tets; // 4 a tet
@@ -83,6 +85,8 @@ void set_state(SoftBody& body, const double* positions, const double* velocities
 
 // Rounds the positions for the grid.
 void write_grid_positions(SoftBody& body);
+// Whether it is so far from the origin that their rounding would move the body.
+bool is_far_away(const SoftBody& body) noexcept;
 
 // Determinant of the edges from corner 0: six times the signed volume.
 double volume6(const Vec3& p0, const Vec3& p1, const Vec3& p2, const Vec3& p3);

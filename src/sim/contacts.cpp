@@ -66,7 +66,9 @@ void check_contact(const SoftBody& a, const SoftBody& b, const vox_constraint& c
         if (c.vertices[i] >= body.positions.size())
             changed(format("a constraint names vertex %u of %zu", c.vertices[i], body.positions.size()));
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const double x = static_cast<double>(body.grid_positions[3 * std::size_t{c.vertices[i]} + axis]);
+            const std::size_t v = c.vertices[i];
+            const double x = body.is_exact_in_grid ? body.positions[v][static_cast<Eigen::Index>(axis)]
+                                                   : double{body.grid_positions[3 * v + axis]};
             gap += c.weights[i] * c.normal[axis] * x;
             size = std::max(size, std::abs(x - c.position[axis]));
         }

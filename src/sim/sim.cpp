@@ -107,13 +107,25 @@ void vox_sim::set_substeps(double h) {
 }
 
 void vox_sim::detect() {
-    for (const auto& body : bodies_) write_grid_positions(*body);
+    for (const auto& body : bodies_) {
+        write_grid_positions(*body);
+        if (!body->is_exact_in_grid && is_far_away(*body)) bind_exactly(*body);
+    }
     const std::uint64_t start = nanoseconds();
     check(vox_grid_step(grid_.get()));
     counts_.detect_ns += nanoseconds() - start;
     gather_contacts(grid_.get(), bodies_, contact_settings_, contacts_);
     ++counts_.detections;
     counts_.constraints = contacts_.size();
+}
+
+// From here on, as a body that comes and goes would move the contacts each time.
+void vox_sim::bind_exactly(SoftBody& body) {
+    static_assert(sizeof(Vec3) == 3 * sizeof(double));
+    check(vox_mesh_bind_doubles(grid_.get(), body.mesh, body.positions[0].data(), body.positions.size()));
+    body.is_exact_in_grid = true;
+    write_log(VOX_LOG_INFO, format("%s: floats round its coordinates by up to %g, so the grid reads doubles",
+                                   name_of(body).c_str(), body.most_rounded));
 }
 
 void vox_sim::substep(double h) {

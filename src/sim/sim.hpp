@@ -45,6 +45,7 @@ public:
 private:
     void set_substeps(double h);
     void detect();
+    void bind_exactly(vox::sim::SoftBody& body);
     void substep(double h);
     void write_log(vox_log_level level, const std::string& text) const;
 

@@ -29,6 +29,8 @@ struct Candidates {
     vox_feature a, b;
     const FeaturePairs& pairs;
 
+    // The same, asked about another motion than they were searched by.
+    Candidates in(const SurfaceMotion& other) const noexcept { return {topology, other, a, b, pairs}; }
     std::size_t count() const noexcept { return static_cast<std::size_t>(pairs.count); }
     // Calls visit(feature, partner) for all partners of feature i of the range, in their order.
     template <class Visit>

@@ -16,6 +16,10 @@
 // products is off by less than u (16.3 P + 2 D) |w|1: `error` is u (20 P + 3 D) |w|1. That of two products of
 // w with v is off by less than u (10.1 P + 2 D) |w|1, which is below it, too. The quotient of the one and the
 // other, a time, is rounded downwards, and so is the sum with t.
+//
+// Where all move far together, v is taken from relative positions at both times, of which each is at most P:
+// it is off by less than 2 u P, a coordinate at time t by 4 u P, and without D the rest is as above. Tiny
+// pairs are enlarged by a power of two, as products underflow.
 #include "surface/contact_time.hpp"
 
 #include "base/vectors.hpp"
@@ -43,22 +47,39 @@ struct MovingPair {
                std::span<const std::uint32_t> second) noexcept {
         const Vec3d origin = motion.from[first[0]], common = motion.to[first[0]] - origin;
         double positions = 0, displacements = 0;
-        const auto take = [&](std::span<const std::uint32_t> corners, MovingFeature& out) {
+        const auto take = [&](std::span<const std::uint32_t> corners, bool together, MovingFeature& out) {
             out.corners = corners.size();
             for (std::size_t i = 0; i < corners.size(); ++i) {
-                const Vec3d p = motion.from[corners[i]], d = motion.to[corners[i]] - p;
-                const Vec3d x = out.at[i] = p - origin, v = out.way[i] = d - common;
+                const Vec3d p = motion.from[corners[i]], q = motion.to[corners[i]], d = q - p;
+                const Vec3d x = out.at[i] = p - origin,
+                            v = out.way[i] = together ? q - motion.to[first[0]] - x : d - common;
                 positions = std::max({positions, std::abs(x.x) + std::abs(v.x), std::abs(x.y) + std::abs(v.y),
                                       std::abs(x.z) + std::abs(v.z)});
-                displacements = std::max({displacements, std::abs(d.x), std::abs(d.y), std::abs(d.z)});
+                displacements = std::max(displacements, largest_coordinate(d));
             }
         };
-        take(first, a);
-        take(second, b);
-        error = unit_roundoff * (20 * positions + 3 * displacements);
+        const auto take_both = [&](bool together) {
+            take(first, together, a);
+            take(second, together, b);
+        };
+        take_both(false);
+        if (displacements > 1024 * positions) {
+            positions = displacements = 0;
+            take_both(true);
+            displacements = 0;
+        }
+        powers = powers_to_enlarge(positions);
+        if (powers > 0)
+            for (MovingFeature* feature : {&a, &b})
+                for (std::size_t i = 0; i < feature->corners; ++i) {
+                    feature->at[i] = times_power(feature->at[i], powers);
+                    feature->way[i] = times_power(feature->way[i], powers);
+                }
+        error = unit_roundoff * std::ldexp(20 * positions + 3 * displacements, powers);
     }
 
     MovingFeature a, b;
+    int powers;   // of two, by which it was enlarged
     double error; // of a difference of projections, for |w|1 = 1
 };
 
@@ -119,16 +140,17 @@ ContactTime contact_time(const SurfaceMotion& motion, std::span<const std::uint3
                          std::span<const std::uint32_t> b, const ContactTimeRule& rule,
                          double latest) noexcept {
     const MovingPair pair(motion, a, b);
+    const double distance = std::ldexp(rule.distance, pair.powers);
     double time = 0, enough = 0;
     for (std::uint32_t iteration = 0; iteration < rule.most_iterations; ++iteration) {
         const AlongWay way = pair.b.corners == 1 ? best_way<3, 1>(pair, time) : best_way<2, 2>(pair, time);
-        const double left = way.distance() - rule.distance;
+        const double left = way.distance() - distance;
         if (!(left > 0)) return {time, true, true};
         if (iteration == 0)
             enough = rule.slack * left;
         else if (left <= enough)
             return {time, true, true};
-        const double step = time_along(pair, way, rule.distance + rule.slack / 2 * left);
+        const double step = time_along(pair, way, distance + rule.slack / 2 * left);
         if (!(step > 0)) return {time, true, true}; // less than rounding leaves
         const double sum = time + step;
         if (sum > 1) return {1, false, true};

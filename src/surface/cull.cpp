@@ -174,11 +174,17 @@ template <int kA, int kB>
 struct CullAxes {
     static constexpr int kEdgesA = kA == 3 ? 3 : kA - 1,
                          kEdgesB = kB == 3 ? 3 : kB - 1; // each without a repetition
-    static constexpr int kProducts = kEdgesA * kEdgesB, kCount = 3 + kProducts + (kA == 3) + (kB == 3);
+    static constexpr int kProducts = kEdgesA * kEdgesB, kCount = 4 + kProducts + (kA == 3) + (kB == 3);
 
     static HWY_INLINE CV3 Normal(const CV3* c) { return CCross(CSub(c[1], c[0]), CSub(c[2], c[0])); }
 
     static HWY_INLINE CV3 At(int axis, const CullPair<kA, kB>& pair) {
+        if (axis == 0) { // across the relative motion, where the middles come closest
+            const CV3 from = CSub(MiddleOf<kA>(pair.a[0]), MiddleOf<kB>(pair.b[0])),
+                      to = CSub(MiddleOf<kA>(pair.a[1]), MiddleOf<kB>(pair.b[1])), way = CSub(to, from);
+            return CAddScaled(from, CUnit(hn::Neg(CDot(from, way)), CDot(way, way)), way);
+        }
+        axis -= 1;
         if (axis < 2) return Between<kA, kB>(pair.a[axis], pair.b[axis]);
         if (axis == 2) { // halfway, for what passes by
             CV3 a[kA], b[kB];
@@ -214,7 +220,7 @@ HWY_INLINE std::size_t CullPairsOf(const CullPairs& pairs) {
     CullPair<kA, kB> pair;
     pair.apart = CSet(pairs.apart);
     std::size_t count = pairs.count;
-    for (int axis = 0; axis < CullAxes<kA, kB>::kCount && count > 0; ++axis) {
+    for (int axis = pairs.along ? 0 : 1; axis < CullAxes<kA, kB>::kCount && count > 0; ++axis) {
         std::size_t kept = 0;
         for (std::size_t first = 0; first < count; first += width) {
             const std::size_t some = count - first < width ? count - first : width;
@@ -283,9 +289,9 @@ namespace vox {
 namespace {
 
 void put_corners(const CullFrame& frame, std::span<const Vec3d> positions,
-                 std::span<const std::uint32_t> corners, float (*at)[3]) noexcept {
+                 std::span<const std::uint32_t> corners, std::size_t time, float (*at)[3]) noexcept {
     for (const std::uint32_t v : corners) {
-        const Vec3d p = frame.scale * (positions[v] - frame.middle);
+        const Vec3d p = frame.scale * (positions[v] - frame.middle[time]);
         (*at)[0] = static_cast<float>(p.x);
         (*at)[1] = static_cast<float>(p.y);
         (*at)[2] = static_cast<float>(p.z);
@@ -297,18 +303,45 @@ void put_corners(const CullFrame& frame, std::span<const Vec3d> positions,
 
 std::size_t cull_some(const CullPairs& pairs) { return VOX_SIMD_DISPATCH(Cull)(pairs); }
 
-CullFrame frame_around(const SurfaceMotion& motion, std::span<const std::uint32_t> vertices) noexcept {
-    Vec3d lo = motion.from[vertices[0]], hi = lo;
-    for (const std::uint32_t v : vertices) {
-        lo = min(lo, min(motion.from[v], motion.to[v]));
-        hi = max(hi, max(motion.from[v], motion.to[v]));
-    }
-    const Vec3d middle = 0.5 * lo + 0.5 * hi, up = hi - middle, down = middle - lo;
-    const double largest = std::max({up.x, up.y, up.z, down.x, down.y, down.z});
-    // The power of two above it. No scale overflows: positions are floats, or about as large, or 0.
-    int exponent = 0;
+namespace {
+
+struct Sides {
+    Vec3d lo, hi;
+
+    Vec3d middle() const noexcept { return 0.5 * lo + 0.5 * hi; }
+};
+
+Sides sides_of(std::span<const Vec3d> at, std::span<const std::uint32_t> vertices) noexcept {
+    Sides sides{at[vertices[0]], at[vertices[0]]};
+    for (const std::uint32_t v : vertices) sides = {min(sides.lo, at[v]), max(sides.hi, at[v])};
+    return sides;
+}
+
+// With a scale for what is between these sides. None overflows: positions are floats, or about as large, or
+// 0.
+CullFrame frame_of(const Sides& from, const Sides& to) noexcept {
+    CullFrame frame{{from.middle(), to.middle()}, 1};
+    double largest = 0;
+    for (const Sides* sides : {&from, &to})
+        for (const Vec3d& v : {sides->hi - sides->middle(), sides->middle() - sides->lo})
+            largest = std::max(largest, largest_coordinate(v));
+    if (!(largest > 0)) largest = largest_coordinate(to.lo - from.lo); // a single point
+    int exponent = 0;                                                  // of the power of two above it
     if (largest > 0) (void)std::frexp(largest, &exponent);
-    return {middle, std::ldexp(1.0, -std::max(exponent, -1000))};
+    frame.scale = std::ldexp(1.0, -std::max(exponent, -1000));
+    return frame;
+}
+
+} // namespace
+
+CullFrame frame_around(const SurfaceMotion& motion, std::span<const std::uint32_t> vertices) noexcept {
+    const Sides from = sides_of(motion.from, vertices), to = sides_of(motion.to, vertices),
+                all{min(from.lo, to.lo), max(from.hi, to.hi)};
+    return frame_of(all, all);
+}
+
+CullFrame frame_along(const SurfaceMotion& motion, std::span<const std::uint32_t> vertices) noexcept {
+    return frame_of(sides_of(motion.from, vertices), sides_of(motion.to, vertices));
 }
 
 float apart_in(const CullFrame& frame, const SurfaceMotion& motion) noexcept {
@@ -319,7 +352,7 @@ void set_lane(const CullFrame& frame, const SurfaceMotion& motion, std::span<con
               std::size_t lane, CullTile& tile) noexcept {
     for (std::size_t t = 0; t < 2; ++t) {
         float at[3][3] = {};
-        put_corners(frame, t == 0 ? motion.from : motion.to, corners, at);
+        put_corners(frame, t == 0 ? motion.from : motion.to, corners, t, at);
         for (std::size_t c = 0; c < corners.size(); ++c)
             for (std::size_t a = 0; a < 3; ++a) tile.at[t][c][a][lane] = at[c][a];
     }
@@ -329,8 +362,8 @@ CullPartner partner_in(const CullFrame& frame, const SurfaceMotion& motion,
                        std::span<const std::uint32_t> corners) noexcept {
     CullPartner partner{};
     partner.largest = 1;
-    put_corners(frame, motion.from, corners, partner.at[0]);
-    put_corners(frame, motion.to, corners, partner.at[1]);
+    put_corners(frame, motion.from, corners, 0, partner.at[0]);
+    put_corners(frame, motion.to, corners, 1, partner.at[1]);
     for (const auto& time : partner.at)
         for (const auto& corner : time)
             for (const float x : corner) partner.largest = std::max(partner.largest, std::abs(x));

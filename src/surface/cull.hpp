@@ -10,10 +10,10 @@
 
 namespace vox {
 
-// A frame in which single precision suffices for what is near a tile: coordinates are taken from its middle
-// and scaled by a power of two, so that the tile's own are at most 1.
+// A frame in which single precision suffices for what is near a tile: coordinates are taken from a middle at
+// either end of the motion, and scaled by a power of two, so that the tile's own are at most 1.
 struct CullFrame {
-    Vec3d middle;
+    Vec3d middle[2];
     double scale;
 };
 
@@ -34,6 +34,7 @@ struct CullPairs {
     const CullPartner* partners;
     unsigned corners, partner_corners;
     float apart;                    // in the frame
+    bool along;                     // try first the axis across the relative motion
     std::uint32_t *lanes, *partner; // of each pair
     std::size_t count;
 };
@@ -42,7 +43,9 @@ struct CullPairs {
 // returns their number.
 std::size_t cull_some(const CullPairs& pairs);
 
+// Around the whole motion; or along with the tile, which takes away the motion that others share with it.
 CullFrame frame_around(const SurfaceMotion& motion, std::span<const std::uint32_t> vertices) noexcept;
+CullFrame frame_along(const SurfaceMotion& motion, std::span<const std::uint32_t> vertices) noexcept;
 // 2 * radius in the frame, rounded up.
 float apart_in(const CullFrame& frame, const SurfaceMotion& motion) noexcept;
 void set_lane(const CullFrame& frame, const SurfaceMotion& motion, std::span<const std::uint32_t> corners,

@@ -4,6 +4,9 @@
 
 #include "exact/closest_point.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 namespace vox {
 
 namespace {
@@ -153,15 +156,28 @@ double at_least(std::span<const Vec3d> a, std::span<const Vec3d> b) noexcept {
     const auto& [origin, own, other, size, powers] = pair;
     double best = 0;
     const Axes axes = axes_between(own, other);
-    for (const Vec3d& w : axes.axis) {
+    // Returns whether another axis need not be tried.
+    const auto is_enough = [&, &own = own, &other = other, size = size](const Vec3d& w) {
         const double squared = dot(w, w);
-        if (!(squared > least_squared_axis)) continue;
+        if (!(squared > least_squared_axis)) return false;
         double least = dot(w, own[0]), most = dot(w, other[0]);
         for (int i = 1; i < kA; ++i) least = std::min(least, dot(w, own[i]));
         for (int i = 1; i < kB; ++i) most = std::max(most, dot(w, other[i]));
         best = std::max(best, (least - most) / std::sqrt(squared) * (1 - 0x1p-50) - 0x1p-48 * size);
-        if (best > good_enough * axes.length) break;
-    }
+        return best > good_enough * axes.length;
+    };
+    // Where rounding hides which of two corners, or of a corner and an edge, are closest, all are tried.
+    const auto is_enough_between_corners = [&, &own = own, &other = other](const Vec3d& p, const Vec3d& q) {
+        const Vec3d way = p - q;
+        const auto is_enough_across = [&](const auto& corners, const Vec3d& from) {
+            return std::any_of(std::begin(corners), std::end(corners),
+                               [&](const Vec3d& to) { return is_enough(across(way, to - from)); });
+        };
+        return is_enough(way) || is_enough_across(own, p) || is_enough_across(other, q);
+    };
+    if (std::none_of(std::begin(axes.axis), std::end(axes.axis), is_enough))
+        for (int i = 0; i < kA * kB; ++i)
+            if (is_enough_between_corners(own[i / kB], other[i % kB])) break;
     // Rounded to a denormal it may have grown.
     const double scaled = std::ldexp(best, -powers);
     return scaled > 0 && powers > 0 ? std::nextafter(scaled, 0.0) : scaled;

@@ -12,8 +12,8 @@ using namespace vox;
 vox_surface::vox_surface(const vox_surface_desc& desc, const MemoryShare& memory)
     : share_(memory), workers_(value_of(desc.tasks), desc.worker_count), topology_(desc, &*memory),
       cell_size_(desc.cell_size), positions_{Array<Vec3d>(&*memory), Array<Vec3d>(&*memory)},
-      search_(&*memory), answer_(&*memory), candidates_(&*memory), crossings_(&*memory), impacts_(&*memory),
-      proximities_(&*memory), clearances_(&*memory) {}
+      relative_(&*memory), search_(&*memory), answer_(&*memory), candidates_(&*memory), crossings_(&*memory),
+      impacts_(&*memory), proximities_(&*memory), clearances_(&*memory) {}
 
 void vox_surface::move(const vox_motion& motion) {
     const std::uint32_t count = topology_.vertex_count;
@@ -191,18 +191,50 @@ std::span<const vox_crossing> vox_surface::crossings() {
 
 namespace {
 
-// The motion of pairs that may come as close as the rule says.
-SurfaceMotion reaching(const SurfaceMotion& motion, double distance) {
-    SurfaceMotion wide = motion;
-    wide.radius = distance / 2 * (1 + 0x1p-50);
-    wide.cull = true;
-    return wide;
+// What most vertices move by, along each axis: the median of some of them.
+Vec3d common_way(const SurfaceMotion& motion) {
+    constexpr std::size_t most = 255;
+    const std::size_t count = motion.from.size(), samples = std::min(count, most);
+    if (samples == 0 || motion.from.data() == motion.to.data()) return {};
+    std::array<double, most> x, y, z;
+    for (std::size_t i = 0; i < samples; ++i) {
+        const std::size_t v = i * count / samples;
+        const Vec3d way = motion.to[v] - motion.from[v];
+        x[i] = way.x;
+        y[i] = way.y;
+        z[i] = way.z;
+    }
+    const auto median = [samples](std::array<double, most>& ways) {
+        const auto half = ways.begin() + static_cast<std::ptrdiff_t>(samples / 2);
+        std::nth_element(ways.begin(), half, ways.begin() + static_cast<std::ptrdiff_t>(samples));
+        return *half;
+    };
+    return {median(x), median(y), median(z)};
 }
 
 } // namespace
 
+// Without what most vertices move by, as differences of positions are all that counts. Each coordinate is off
+// by 2^-53 of itself then.
+SurfaceMotion vox_surface::reaching(double distance) {
+    SurfaceMotion wide = motion();
+    const Vec3d common = common_way(wide);
+    double largest = 0;
+    if (largest_coordinate(common) > 0) {
+        relative_.resize(wide.to.size());
+        for (std::size_t v = 0; v < relative_.size(); ++v) {
+            relative_[v] = wide.to[v] - common;
+            largest = std::max(largest, largest_coordinate(relative_[v]));
+        }
+        wide.to = relative_;
+    }
+    wide.radius = distance / 2 * (1 + 0x1p-50) + largest * 0x1p-52;
+    wide.cull = true;
+    return wide;
+}
+
 vox_safe_step vox_surface::safe_step(const ContactTimeRule& rule) {
-    const SurfaceMotion reach = reaching(motion(), rule.distance);
+    const SurfaceMotion reach = reaching(rule.distance);
     bool nothing_lives;
     return answer(nothing_lives, [&] {
         vox_safe_step found{};
@@ -211,7 +243,7 @@ vox_safe_step vox_surface::safe_step(const ContactTimeRule& rule) {
             const vox_feature b = a == VOX_FEATURE_FACE ? VOX_FEATURE_VERTEX : VOX_FEATURE_EDGE;
             for_pieces(reach, a, b, [&](const Candidates& candidates) {
                 found.pairs += candidates.pairs.offsets[candidates.count()];
-                lower_safe_step(candidates, rule, workers_, found);
+                lower_safe_step(candidates.in(motion_), rule, workers_, found);
             });
         }
         return found;
@@ -219,9 +251,9 @@ vox_safe_step vox_surface::safe_step(const ContactTimeRule& rule) {
 }
 
 std::span<const vox_impact> vox_surface::impacts(vox_feature a, vox_feature b, const ContactTimeRule& rule) {
-    return answer_all(impacts_, reaching(motion(), rule.distance), a, b,
+    return answer_all(impacts_, reaching(rule.distance), a, b,
                       [&](const Candidates& candidates, Answers<vox_impact>& out) {
-                          add_impacts(candidates, rule, workers_, out);
+                          add_impacts(candidates.in(motion_), rule, workers_, out);
                       });
 }
 

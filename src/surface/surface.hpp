@@ -69,6 +69,8 @@ public:
     vox_counter_view counters() const;
 
 private:
+    // The motion of pairs that may come this close.
+    vox::SurfaceMotion reaching(double distance);
     // The partners of features [first, first + count) of kind a, or of the first of them: as many as fit into
     // the byte budget, at least one.
     void find_fitting(const vox::SurfaceMotion& motion, vox_feature a, vox_feature b, std::uint32_t first,
@@ -89,6 +91,7 @@ private:
     bool has_motion_ = false;
     std::array<vox::Array<vox::Vec3d>, 2> positions_; // at time 0 and 1; the latter empty: stands still
     vox::SurfaceMotion motion_;
+    vox::Array<vox::Vec3d> relative_; // positions at time 1, as pairs are searched for contacts
     vox::PairSearch search_;
     struct Piece {
         vox_feature a, b;

@@ -516,10 +516,36 @@ START_TEST(workers_and_memory) {
 }
 END_TEST
 
+/* What moves far, slantwise, is not compared with all that its boxes sweep over: times are computed of faces
+ * that a vertex comes close to, and of none where nothing approaches anything. */
+START_TEST(far_and_slantwise) {
+    const float way[3] = {48, 51.2f, 38.4f};
+    for (int both = 0; both < 2; ++both) {
+        vox_grid* grid = impact_grid();
+        moving_body boxes[2];
+        for (int i = 0; i < 2; ++i) {
+            const float at = i ? 7 : 0;
+            boxes[i] = insert_moving(grid, make_box(6, 1, at, at + 0.375f, at - 0.25f));
+            for (uint32_t k = 0; (i == 0 || both) && k < 3 * boxes[i].now.vertex_count; ++k)
+                boxes[i].before[k] += way[k % 3];
+        }
+        ck_ok(vox_grid_step(grid));
+        const grid_counts counts = counters_of(grid);
+        if (both)
+            ck_assert_uint_eq(counts.face_candidates, 0);
+        else
+            ck_assert_uint_gt(count_impacts(grid), 100);
+        ck_assert_uint_lt(counts.face_candidates, 20u * counts.vertices);
+        vox_grid_destroy(grid);
+        for (int i = 0; i < 2; ++i) free_moving(&boxes[i]);
+    }
+}
+END_TEST
+
 static void add_tests(TCase* tests) {
     tcase_add_each(tests, random_motions, plate_shot_through, in_and_out, formats_and_transforms,
                    filters_and_life, impacts_within_the_margin, appended_vertices_end_it, arguments,
-                   workers_and_memory);
+                   workers_and_memory, far_and_slantwise);
 }
 
 SUITE(impacts) { add_for_each_engine(suite, add_tests); }

@@ -45,6 +45,14 @@ inline long double oracle_distance(const std::vector<Long3>& a, const std::vecto
             if (v >= 0 && w >= 0 && v + w <= 1)
                 least = std::min(least, norm(p - a[0] - (a[1] - a[0]) * v - (a[2] - a[0]) * w));
         }
+        for (std::size_t i = 0; i < 3; ++i) { // along an edge and across it: right for slivers, too
+            const Long3 d = a[(i + 1) % 3] - a[i], e = a[(i + 2) % 3] - a[i], r = p - a[i];
+            const long double s = dot(e, d) / dot(d, d), t = dot(r, d) / dot(d, d);
+            const Long3 across = e - d * s, away = r - d * t;
+            const long double share = dot(away, across) / dot(across, across);
+            if (share >= 0 && t - share * s >= 0 && 1 - t + share * s - share >= 0)
+                least = std::min(least, norm(away - across * share));
+        }
         return least;
     }
     long double least = std::min({to_segment(a[0], b[0], b[1]), to_segment(a[1], b[0], b[1]),

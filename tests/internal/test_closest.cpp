@@ -3,6 +3,7 @@
 #include "base/vectors.hpp"
 #include "depth/closest.hpp"
 #include "exact/closest_point.hpp"
+#include "exact/facet_normal.hpp"
 #include "internal/prepared_mesh.hpp"
 #include "internal/scenes.hpp"
 #include "internal/stage_checks.hpp"
@@ -374,10 +375,25 @@ START_TEST(a_tree_follows_edits) {
 }
 END_TEST
 
+// Squares of short ways vanish; their directions are unit vectors all the same.
+START_TEST(directions_of_any_length) {
+    for (int power = -1070; power <= 128; ++power) {
+        const double size = std::ldexp(1, power);
+        const Stretch stretch({-2 * size, size, 2 * size});
+        ck_assert_double_eq_tol(stretch.length / size, 3, power < -1000 ? 1 : 1e-15);
+        ck_assert_double_eq_tol(stretch.direction.x, -2.0 / 3, 1e-15);
+        ck_assert_double_eq_tol(length(stretch.direction), 1, 1e-15);
+    }
+    const Stretch none({0, 0, 0});
+    ck_assert(none.length == 0 && none.direction.x == 0 && none.direction.y == 0 && none.direction.z == 0);
+}
+END_TEST
+
 } // namespace
 
 SUITE(closest) {
     TCase* tests = add_case(suite, "closest");
+    tcase_add_test(tests, directions_of_any_length);
     tcase_add_loop_test(tests, closest_of_all_triangles, 0, 24);
     tcase_add_loop_test(tests, closest_with_double_positions, 0, 8);
     tcase_add_loop_test(tests, folds_by_definition, 0, 8);

@@ -13,7 +13,8 @@
 #include <limits>
 #include <vector>
 
-#include "support/suite.h" // last: it defines macros with common names
+#include "support/suite.h"
+#include "support/surface_counter.h" // last: it defines macros with common names
 
 using namespace vox;
 using test::feature_distance;
@@ -184,6 +185,30 @@ START_TEST(plain_cases) {
 }
 END_TEST
 
+// A pair of any size, or that moves far together, has the time of the same pair at rest and of size 1.
+START_TEST(any_size_and_common_motion) {
+    const Query q{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {.25, .25, 1}},
+                  {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {.25, .25, -1}},
+                  false};
+    for (const double size : {1e-290, 1e-160, 1e-100, 1e30}) {
+        Query other = q;
+        for (int i = 0; i < 4; ++i) other.from[i] = size * q.from[i], other.to[i] = size * q.to[i];
+        ck_assert_double_eq_tol(answer(other).time, answer(q).time, 1e-12);
+        ck_assert_double_eq_tol(answer(other, rule_of(.5 * size)).time, answer(q, rule_of(.5)).time, 1e-12);
+    }
+    for (const double far : {0x1p20, 0x1p40, 0x1p50}) { // coordinates of which are exact
+        Query other = q;
+        for (Vec3d& p : other.to) p = p + Vec3d{far, -far, far};
+        if (far == 0x1p50) other.to[3] = other.to[3] + Vec3d{0, 0, -.25}; // where 1/4 is the last digit
+        const ContactTime found = answer(other);
+        ck_assert(found.touches && found.time > 0.4 && found.time <= 0.5);
+    }
+    Query gone = q; // as far as that all end at one place
+    for (Vec3d& p : gone.to) p = p + Vec3d{1e30, 1e30, 1e30};
+    ck_assert_double_gt(answer(gone).time, 0.8);
+}
+END_TEST
+
 // ---- through vox_surface.h ----------------------------------------------------------------------------
 
 constexpr int side = 12;
@@ -313,6 +338,28 @@ START_TEST(a_safe_step_is_the_least_time_of_all_pairs) {
 }
 END_TEST
 
+// Where all moves together, no more is looked at than at rest.
+START_TEST(common_motion_costs_nothing) {
+    vox_safe_step steps[2];
+    std::uint64_t compared[2], overlaps[2];
+    for (int far = 0; far < 2; ++far) {
+        Sheets s(7, 1);
+        for (std::size_t i = 0; far && i < s.to.size(); ++i)
+            s.to[i] += i % 3 == 0 ? 48 : i % 3 == 1 ? 51 : 38;
+        vox_surface* const surface = surface_of(s, 1);
+        move(surface, s);
+        ck_ok(vox_surface_find_safe_step(surface, nullptr, &steps[far]));
+        compared[far] = surface_counter(surface, "boxes_compared");
+        overlaps[far] = surface_counter(surface, "overlaps");
+        vox_surface_destroy(surface);
+    }
+    ck_assert_uint_le(2 * compared[1], 3 * compared[0]);
+    ck_assert_uint_le(2 * overlaps[1], 3 * overlaps[0]);
+    ck_assert_double_lt(steps[0].step, 1);
+    ck_assert_double_eq_tol(steps[0].step, steps[1].step, 1e-6);
+}
+END_TEST
+
 START_TEST(what_is_refused) {
     const Sheets s(1, 1);
     vox_surface* const surface = surface_of(s, 1);
@@ -344,5 +391,6 @@ END_TEST
 SUITE(contact_time) {
     TCase* tests = add_case(suite, "contact_time");
     tcase_add_each(tests, plain_cases, never_later_than_a_time_that_is_known, apart_until_then,
+                   any_size_and_common_motion, common_motion_costs_nothing,
                    a_safe_step_is_the_least_time_of_all_pairs, what_is_refused);
 }

@@ -1,5 +1,6 @@
 // Distances of features against a slow oracle in long doubles, degenerate ones and any numbers included.
 #include "base/vectors.hpp"
+#include "exact/closest_point.hpp"
 #include "internal/distance_oracle.hpp"
 #include "internal/random.hpp"
 #include "surface/distance.hpp"
@@ -108,6 +109,58 @@ START_TEST(distances_are_right) {
 }
 END_TEST
 
+// Where a corner of one edge is closest to a corner of the other, and just beside it: the bound is the
+// distance, not how far apart the lines are.
+START_TEST(bounds_beside_corners) {
+    const Vec3d a[2] = {{2, 1, 0x1.7ffffep+1}, {0x1p-149, 0, 0x1.000002p0}},
+                b[2] = {{0, -0x1p-149, 1}, {0x1.800002p+1, 2, 0x1.000002p0}};
+    for (const double least : {distance_at_least(a, b), distance_at_least(b, a)})
+        ck_assert_double_gt(least, 0.99 * closest_features(a, b).distance);
+    Random random{14};
+    const auto vector = [&] {
+        const double x = random.unit() - .5, y = random.unit() - .5;
+        return Vec3d{x, y, random.unit() - .5};
+    };
+    for (int n = 0; n < 20000; ++n) { // edges that begin close together
+        const Vec3d p = 4 * vector(),
+                    q = p + std::ldexp(1, -10 - static_cast<int>(random.below(20))) * vector();
+        const Vec3d c[2] = {p, p + vector()}, d[2] = {q, q + vector()};
+        const double distance = closest_features(c, d).distance, least = distance_at_least(c, d);
+        ck_assert_double_gt(least, 0.98 * distance - 1e-13);
+    }
+}
+END_TEST
+
+// However thin a face is, and wherever above it the vertex, the distance is off by no more than rounding.
+START_TEST(slivers) {
+    Random random{13};
+    for (int n = 0; n < 50000; ++n) {
+        const auto number = [&] { return 4 * random.unit() - 2; };
+        const auto vector = [&] {
+            const double x = number(), y = number();
+            return Vec3d{x, y, number()};
+        };
+        const Vec3d p = vector(), q = vector(), middle = p + random.unit() * (q - p);
+        const double thickness = std::ldexp(1, -static_cast<int>(random.below(56))),
+                     height = std::ldexp(random.unit(), -static_cast<int>(random.below(56)));
+        std::vector<Vec3d> a{p, q, middle + thickness * vector()};
+        std::rotate(a.begin(), a.begin() + random.below(3), a.end());
+        double weights[3] = {random.unit(), random.unit(), random.unit()};
+        const double sum = weights[0] + weights[1] + weights[2];
+        const Vec3d over = (weights[0] / sum) * a[0] + (weights[1] / sum) * a[1] + (weights[2] / sum) * a[2];
+        const std::vector<Vec3d> b{over + height * vector()};
+        const long double exact = oracle_distance(all_longer(a), all_longer(b));
+        const double found = closest_features(a, b).distance,
+                     seen = length(closest_seen_from(b[0], a[0], a[1], a[2]).way),
+                     squared = closest_seen_from(b[0], a[0], a[1], a[2]).at.squared_distance;
+        for (const double distance : {found, seen, std::sqrt(squared)})
+            ck_assert_msg(std::abs(distance - exact) <= 5e-14L, "%d: %.17g, expected %.17Lg (thickness %g)",
+                          n, distance, exact, thickness);
+        ck_assert(distance_at_least(a, b) <= exact);
+    }
+}
+END_TEST
+
 // Down to the denormals of double, and of any exponents: bounds hold.
 START_TEST(bounds_hold_for_any_numbers) {
     Random random{12};
@@ -134,5 +187,6 @@ END_TEST
 
 SUITE(feature_distance) {
     TCase* tests = add_case(suite, "feature_distance");
-    tcase_add_each(tests, edges_that_cross_at_any_angle, distances_are_right, bounds_hold_for_any_numbers);
+    tcase_add_each(tests, edges_that_cross_at_any_angle, distances_are_right, bounds_beside_corners, slivers,
+                   bounds_hold_for_any_numbers);
 }

@@ -313,9 +313,35 @@ START_TEST(every_build_moves_bodies_the_same) {
 }
 END_TEST
 
+/* A box on a box, and its drift in five seconds: at the origin, and where floats are half a metre apart. */
+START_TEST(rests_far_from_the_origin) {
+    double drift[2];
+    for (int far = 0; far < 2; ++far) {
+        const double x = far ? 5e5 : 0, y = far ? 4e6 : 0;
+        vox_sim_desc desc = vox_default_sim_desc();
+        vox_sim* sim = open_sim(&desc);
+        vox_io_mesh* mesh = box(1, 1, 1, 0.5);
+        insert(sim, mesh, NULL, 0, x, y, 0.5);
+        const vox_body upper = insert(sim, mesh, NULL, 0, x + 0.1, y + 0.1, 1.52);
+        const vox_sim_energy before = energy_of(sim, upper);
+        steps(sim, 300);
+        const vox_sim_energy after = energy_of(sim, upper);
+        drift[far] = 0;
+        for (int axis = 0; axis < 2; ++axis)
+            drift[far] = fmax(drift[far], fabs(after.centre[axis] - before.centre[axis]));
+        ck_assert_double_gt(after.centre[2], before.centre[2] - 0.1); /* it did not sink */
+        ck_assert_uint_gt(counter(sim, "constraints"), 0);
+        vox_io_mesh_destroy(mesh);
+        vox_sim_destroy(sim);
+    }
+    ck_assert_double_le(drift[1], drift[0] + 1e-3);
+}
+END_TEST
+
 SUITE(sim) {
     tcase_add_each(add_case(suite, "motion"), falls_as_the_formula_says, rests_on_the_floor,
                    a_free_body_keeps_its_momentum, two_bodies_collide_and_part, energy_does_not_grow,
                    friction_follows_coulomb, three_slabs_rest_stacked, bars_part_by_their_edges,
-                   what_went_through_comes_back, every_build_moves_bodies_the_same);
+                   what_went_through_comes_back, rests_far_from_the_origin,
+                   every_build_moves_bodies_the_same);
 }

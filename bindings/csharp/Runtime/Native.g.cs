@@ -1285,7 +1285,8 @@ namespace Voxtet
         public Positions from;
         /// <summary>at time 1, in the same format; none: everything stands still</summary>
         public Positions to;
-        /// <summary>grows the box of a vertex on all sides, rounded outward; may be infinite</summary>
+        /// <summary>grows the box of a vertex on all sides, rounded outward to the next number of the format, by one
+        /// number also where it is 0; may be infinite</summary>
         public double radius;
     }
 
@@ -1654,7 +1655,8 @@ namespace Voxtet
         public double* velocities;
         /// <summary>vertex_count</summary>
         public double* masses;
-        /// <summary>3 * vertex_count: positions rounded to float, which the grid borrows</summary>
+        /// <summary>3 * vertex_count: positions rounded to float; the grid borrows them, or `positions` once floats
+        /// round by more than 2^-14 of a mean edge, far from the origin</summary>
         public float* grid_positions;
         /// <summary>4 * tet_count</summary>
         public uint* tets;

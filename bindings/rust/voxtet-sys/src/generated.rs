@@ -1162,7 +1162,8 @@ pub struct vox_motion {
     pub from: vox_positions,
     /// at time 1, in the same format; none: everything stands still
     pub to: vox_positions,
-    /// grows the box of a vertex on all sides, rounded outward; may be infinite
+    /// grows the box of a vertex on all sides, rounded outward to the next number of the format, by one number also
+    /// where it is 0; may be infinite
     pub radius: f64,
 }
 
@@ -1543,7 +1544,8 @@ pub struct vox_sim_body_view {
     pub velocities: *const f64,
     /// vertex_count
     pub masses: *const f64,
-    /// 3 * vertex_count: positions rounded to float, which the grid borrows
+    /// 3 * vertex_count: positions rounded to float; the grid borrows them, or `positions` once floats round by more
+    /// than 2^-14 of a mean edge, far from the origin
     pub grid_positions: *const f32,
     /// 4 * tet_count
     pub tets: *const u32,
