@@ -70,10 +70,6 @@ def draw_growth(chart, runs, top, _):
     chart.legend(40, top + 10, [*keys, (F2, chart.line_key("grey", dash="6 4"))], 2, 360)
 
 
-def rounded(times):
-    return f"{times:.0f}" if times >= 10 else f"{times:.1f}"
-
-
 def draw_short(scenes, path):
     """Of each scene, the default step, the fastest peer and the paper's algorithm; each bar as a share of the longest."""
     scenes = [scene for name in SHORT for scene in scenes if scene.name == name and scene.is_comparison()]
@@ -90,7 +86,7 @@ def draw_short(scenes, path):
         for j, (name, colour, words) in enumerate(entrants):
             y, width = top + j * (thick + 3), (right - left) * scene.ms(name) / longest
             chart.add(f'<rect class="f {colour}" x="{left}" y="{y}" width="{max(width, 2):.1f}" height="{thick}"/>')
-            times = "" if j == 0 else f" × {rounded(scene.times_faster(CONTACTS, name))}"
+            times = "" if j == 0 else f" × {float(f"{scene.times_faster(CONTACTS, name):.2g}"):g}"
             chart.text(left + width + 6, y + 16, f"{words}{times}")
     chart.write(path)
 
