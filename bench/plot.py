@@ -78,7 +78,7 @@ def draw_short(scenes, path):
     left, right, thick = 190, 440, 21
     for i, scene in enumerate(scenes):
         top = 12 + 84 * i
-        entrants = [(CONTACTS, "vox", "vox"), (scene.best_peer(), "blue", f"{scene.best_peer()}"),
+        entrants = [(CONTACTS, "vox", "vox"), (scene.best_peer(), "blue", scene.best_peer()),
                     (REFERENCE, "grey", "paper's algorithm")]
         longest = max(scene.ms(name) for name, _, _ in entrants)
         chart.text(2, top + 16, SHORT[scene.name])
@@ -86,8 +86,9 @@ def draw_short(scenes, path):
         for j, (name, colour, words) in enumerate(entrants):
             y, width = top + j * (thick + 3), (right - left) * scene.ms(name) / longest
             chart.add(f'<rect class="f {colour}" x="{left}" y="{y}" width="{max(width, 2):.1f}" height="{thick}"/>')
-            times = "" if j == 0 else f" × {float(f"{scene.times_faster(CONTACTS, name):.2g}"):g}"
-            chart.text(left + width + 6, y + 16, f"{words}{times}")
+            times = scene.times_faster(CONTACTS, name)
+            words += "" if j == 0 else f" × {times:.0f}" if times >= 10 else f" × {times:.1f}"
+            chart.text(left + width + 6, y + 16, words)
     chart.write(path)
 
 
