@@ -123,8 +123,8 @@ hide: [navigation, toc]
 
 # Playground
 
-Bodies to drop, drag and cut, and the cost of a step at every cell size. It runs in this page; nothing leaves it.
-[On the whole window](playground/index.html)
+Bodies to drop, drag and cut, and the cost of a step at every cell size. It runs in your browser; nothing leaves it.
+[On the whole window](playground/index.html){ .md-button }
 
 <iframe class="vox-playground" src="playground/index.html" title="Playground" loading="lazy"></iframe>
 """
