@@ -23,7 +23,7 @@ function element(name, attributes, parent, text) {
 
 export const time = (ms) => (ms >= 100 ? `${ms.toFixed(0)} ms` : ms >= 10 ? `${ms.toFixed(1)} ms` : ms >= 0.1 ? `${ms.toFixed(2)} ms` : `${(1000 * ms).toFixed(0)} µs`);
 export const length = (size) => Number(size.toPrecision(3)).toString();
-export const more = (factor) => (factor < 1.005 ? "best" : factor < 3 ? `+${((factor - 1) * 100).toFixed(0)} %` : `${factor.toFixed(1)} ×`);
+export const more = (factor) => (factor < 3 ? `+${Math.max(0, (factor - 1) * 100).toFixed(0)} %` : `${factor.toFixed(1)} ×`);
 
 /** From green (the best time) to red (five times as long). */
 export const hue = (factor) => Math.round(140 * (1 - Math.max(0, Math.min(1, Math.log(factor / 1.1) / Math.log(4.5)))));

@@ -190,7 +190,7 @@ function forget() {
   swept.clear();
   say("");
 }
-const settings = () => ({ engine, self: find("self").checked, stiffness: 10 ** Number(find("stiffness").value) });
+const settings = () => ({ engine, self: find("self").checked, stiffness: 2e5 * 10 ** Number(find("stiffness").value) });
 function configure() {
   act("configure", settings());
   const pascals = settings().stiffness;
@@ -222,7 +222,7 @@ function conclude() {
   const [best, least] = all.reduce((a, b) => (b[1] < a[1] ? b : a));
   const [worst, most] = all.reduce((a, b) => (b[1] > a[1] ? b : a));
   const chosen = all.reduce((a, b) => (Math.abs(Math.log(b[0] / curve.size)) < Math.abs(Math.log(a[0] / curve.size)) ? b : a));
-  say(`Best of ${all.length} sizes: ${length(best)}. Chosen without measuring: ${length(chosen[0])}, ${chosen[0] === best ? "the same" : `${more(chosen[1] / least)}`.replace("best", "as fast")}. ` +
+  say(`Best of ${all.length} sizes: ${length(best)}. Chosen without measuring: ${length(chosen[0])}, ${chosen[0] === best ? "the same" : more(chosen[1] / least)}. ` +
     `Worst: ${length(worst)}, ${(most / least).toFixed(1)} times as long.`);
 }
 
@@ -238,6 +238,7 @@ const heard = {
   bodies({ bodies }) {
     view.setBodies(bodies);
     playgroundApi.bodies = bodies.length;
+    playgroundApi.list = bodies;
     forget(); // what was measured was of other bodies
   },
   came({ origin, frames: near }) {

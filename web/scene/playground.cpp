@@ -364,6 +364,7 @@ vox_result play_configure(playground* play, uint32_t engine, uint32_t self_colli
             fail(VOX_ERROR_INVALID_ARGUMENT,
                  "a stiffness of " + std::to_string(stiffness) + "; expected 1e3 to 1e8");
         const std::tuple old_settings(play->engine, play->self_collision, play->stiffness);
+        const std::uint32_t next_serial = play->next_serial;
         play->engine = engine;
         play->self_collision = self_collision != 0;
         play->stiffness = stiffness;
@@ -371,17 +372,19 @@ vox_result play_configure(playground* play, uint32_t engine, uint32_t self_colli
         try {
             replace(*play, [&](const std::vector<Body>& old_bodies) {
                 for (const Body& body : old_bodies) {
+                    play->next_serial = body.serial;
                     Body made = insert(
                         *play, {list(body.view.positions, 3 * body.view.vertex_count), body.rest,
                                 list(body.view.velocities, 3 * body.view.vertex_count), body.tets, body.kind,
                                 body.origin});
-                    made.serial = body.serial;
                     made.triangles = body.triangles;
                     made.uncut = body.uncut;
                     play->bodies.push_back(std::move(made));
                 }
+                play->next_serial = next_serial;
             });
         } catch (...) {
+            play->next_serial = next_serial;
             std::tie(play->engine, play->self_collision, play->stiffness) = old_settings;
             throw;
         }
