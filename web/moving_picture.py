@@ -10,5 +10,5 @@ frames = [Image.open(path).convert("RGB") for path in sorted(folder.glob("[0-9]*
 width = 560
 frames = [f.resize((width, f.height * width // f.width), Image.Resampling.LANCZOS) for f in frames]
 frames[0].save(docs / "playground.webp", save_all=True, append_images=frames[1:], duration=80, loop=0, quality=20, method=6)
-Image.open(folder / "cost.png").convert("RGB").save(docs / "playground-cost.webp", lossless=True, method=6)
+Image.open(folder / "cost.png").convert("RGB").save(docs / "playground-cost.webp", quality=82, method=6)
 print((docs / "playground.webp").stat().st_size, "bytes")

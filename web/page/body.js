@@ -1,7 +1,7 @@
 // A body as it is drawn: smooth where its surface is smooth, with sharp edges, thin lines along all edges, and cut faces of another colour.
 import * as THREE from "three";
 
-const SMOOTH = Math.cos(0.9); // faces that meet at less than this angle share a normal
+const SMOOTH = Math.cos(1.1); // faces that meet at less than this angle share a normal
 
 /** Corners for drawing: one for each vertex and each smooth piece of the surface around it; and edges between them. */
 function cornersOf({ triangles, uncut }, positions) {

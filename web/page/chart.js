@@ -4,14 +4,14 @@ import { predictedAt } from "./curve.js";
 
 const SVG = "http://www.w3.org/2000/svg";
 const WIDTH = 460;
-const HEIGHT = 312;
+const HEIGHT = 320;
 const LEFT = 34;
 const RIGHT = 12;
-const TOP = 84; // above it, a row for each label
+const TOP = 96; // above it, a row for each label
 const BOTTOM = 24;
 const MOST = 6; // times the best
 const SPAN = 7; // sizes up to so many times smaller and larger than the best
-const ROWS = [13, 31, 49, 67];
+const ROWS = [13, 30, 47, 64, 81]; // one for each mark at most
 
 function element(name, attributes, parent, text) {
   const made = document.createElementNS(SVG, name);
@@ -100,10 +100,9 @@ export class Chart {
     const labels = element("g", {});
     for (const mark of marks.toSorted((a, b) => a.at - b.at)) {
       const x = this.#x(mark.at);
-      const half = 3.6 * mark.name.length + 5;
+      const half = 4.3 * mark.name.length + 4;
       const middle = Math.min(WIDTH - half, Math.max(half, x));
-      const free = ends.findIndex((end) => end < middle - half);
-      const row = free < 0 ? ROWS.length - 1 : free;
+      const row = ends.findIndex((end) => end < middle - half);
       ends[row] = middle + half;
       element("line", { class: `chart-lead ${mark.kind}`, x1: x, x2: x, y1: ROWS[row] + 5, y2: this.#y(mark.times) }, this.#svg);
       element("circle", { class: `chart-mark ${mark.kind}`, cx: x, cy: this.#y(mark.times), r: mark.kind === "rule" ? 4.5 : 7 }, this.#svg);

@@ -316,9 +316,9 @@ function setPaused(on) {
 }
 
 find("drop").addEventListener("click", drop);
-find("samples").append(...Object.entries(SAMPLES).map(([name, make]) => {
+find("samples").append(...Object.entries(SAMPLES).map(([name, { make, tets: about }]) => {
   const button = Object.assign(document.createElement("button"), { textContent: name[0].toUpperCase() + name.slice(1) });
-  button.addEventListener("click", () => act("file", { name, bytes: new TextEncoder().encode(make()), tets: Math.max(4000, tets()), yUp: true, format: "obj" }));
+  button.addEventListener("click", () => act("file", { name, bytes: new TextEncoder().encode(make()), tets: about, yUp: true, format: "obj" }));
   return button;
 }));
 find("clear").addEventListener("click", () => act("clear"));
@@ -464,7 +464,10 @@ canvas.addEventListener("keydown", async (event) => {
 
 // ---- drawing ----
 
+let turns = 0; // of the browser, to draw
+let slow = 0; // half seconds in a row
 function draw() {
+  ++turns;
   if (view.draw()) ++frames;
   const label = view.label;
   find("name").hidden = !label;
@@ -479,6 +482,9 @@ setInterval(() => {
   framesPerSecond = frames * 2;
   playgroundApi.framesPerSecond = framesPerSecond;
   frames = 0;
+  slow = turns < 5 && !document.hidden ? slow + 1 : 0;
+  if (slow === 6) view.simplify(); // there is no graphics processor, or a slow one
+  turns = 0;
   if (facts) showFacts();
 }, 500);
 

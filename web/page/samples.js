@@ -18,36 +18,40 @@ const add = (a, b, scale = 1) => a.map((x, i) => x + scale * b[i]);
 const cross = (a, b) => [0, 1, 2].map((i) => a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3]);
 const unit = (a) => a.map((x) => x / Math.hypot(...a));
 
-/** A tube of a radius around a curve over 0..1, whose cross-sections lean on `side`. */
-function tube(curve, side, radius, { count, closed }) {
-  const rows = Array.from({ length: count }, (_, row) => {
-    const t = row / (closed ? count : count - 1);
-    const along = unit(add(curve(t + 1e-4), curve(t - 1e-4), -1));
-    const u = unit(cross(side(t), along));
+/** A trefoil knot: a tube around a closed curve. */
+function knot() {
+  const curve = (t) => [Math.sin(t) + 2 * Math.sin(2 * t), Math.cos(t) - 2 * Math.cos(2 * t), -1.2 * Math.sin(3 * t)];
+  const rows = Array.from({ length: 120 }, (_, row) => {
+    const t = (TAU * row) / 120;
+    const along = unit(add(curve(t + 1e-3), curve(t - 1e-3), -1));
+    const u = unit(cross([Math.cos(t), Math.sin(t), 3], along));
     const v = cross(along, u);
-    return Array.from({ length: 14 }, (_, i) => add(add(curve(t), u, radius * Math.cos((TAU * i) / 14)), v, radius * Math.sin((TAU * i) / 14)));
+    return Array.from({ length: 14 }, (_, i) => add(add(curve(t), u, 0.62 * Math.cos((TAU * i) / 14)), v, 0.62 * Math.sin((TAU * i) / 14)));
   });
-  return obj(rows, { closed });
+  return obj(rows, { closed: true });
+}
+
+/** A jack: a ball with six arms. */
+function jack() {
+  const rows = Array.from({ length: 39 }, (_, row) => {
+    const tilt = (Math.PI * (row + 1)) / 40;
+    return Array.from({ length: 64 }, (_, i) => {
+      const way = [Math.sin(tilt) * Math.cos((TAU * i) / 64), Math.cos(tilt), Math.sin(tilt) * Math.sin((TAU * i) / 64)];
+      const arm = way.reduce((sum, x) => sum + x ** 12, 0);
+      return way.map((x) => x * (0.42 + 0.6 * arm));
+    });
+  });
+  return obj(rows, { closed: false });
 }
 
 /** A cog wheel: its outline, wide and narrow by turns, around a hole. */
 function gear() {
-  const teeth = 9;
-  const steps = 8 * teeth;
+  const steps = 80;
   const ring = (radius, z) => Array.from({ length: steps }, (_, i) => [radius(i) * Math.cos((TAU * i) / steps), radius(i) * Math.sin((TAU * i) / steps), z]);
   const outside = (i) => [1, 1, 1, 0.9, 0.76, 0.76, 0.76, 0.9][i % 8];
-  const inside = () => 0.34;
-  return obj([ring(outside, -0.22), ring(outside, 0.22), ring(inside, 0.22), ring(inside, -0.22)], { closed: true });
+  const inside = () => 0.4;
+  return obj([ring(outside, -0.3), ring(outside, 0.3), ring(inside, 0.3), ring(inside, -0.3)], { closed: true });
 }
 
-const knot = (t) => {
-  const a = TAU * t;
-  return [Math.sin(a) + 2 * Math.sin(2 * a), Math.cos(a) - 2 * Math.cos(2 * a), -1.2 * Math.sin(3 * a)];
-};
-const spring = (t) => [Math.cos(3.5 * TAU * t), 3 * t, Math.sin(3.5 * TAU * t)];
-
-export const SAMPLES = {
-  knot: () => tube(knot, (t) => [Math.cos(TAU * t), Math.sin(TAU * t), 3], 0.62, { count: 120, closed: true }),
-  spring: () => tube(spring, () => [0, 1, 0], 0.28, { count: 120, closed: false }),
-  gear,
-};
+/** By name: the text, and about how many tetrahedra show its shape. */
+export const SAMPLES = { knot: { make: knot, tets: 8000 }, jack: { make: jack, tets: 6000 }, gear: { make: gear, tets: 4000 } };

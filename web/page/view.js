@@ -182,6 +182,14 @@ export class View {
     this.#needsDrawing = true;
   }
 
+  /** Draws less: no shadows, and no more pixels than the page has. */
+  simplify() {
+    this.#renderer.setPixelRatio(1);
+    this.#renderer.shadowMap.enabled = false;
+    this.#scene.traverse(({ material }) => material && (material.needsUpdate = true));
+    this.#resize();
+  }
+
   /** Bodies as worker.js lists them. */
   setBodies(bodies) {
     const kept = new Map(this.#bodies.map((shown) => [shown.body.serial, shown]));

@@ -373,10 +373,10 @@ vox_result play_configure(playground* play, uint32_t engine, uint32_t self_colli
             replace(*play, [&](const std::vector<Body>& old_bodies) {
                 for (const Body& body : old_bodies) {
                     play->next_serial = body.serial;
-                    Body made = insert(
-                        *play, {list(body.view.positions, 3 * body.view.vertex_count), body.rest,
-                                list(body.view.velocities, 3 * body.view.vertex_count), body.tets, body.kind,
-                                body.origin});
+                    Body made =
+                        insert(*play, {list(body.view.positions, 3 * body.view.vertex_count), body.rest,
+                                       list(body.view.velocities, 3 * body.view.vertex_count), body.tets,
+                                       body.kind, body.origin});
                     made.triangles = body.triangles;
                     made.uncut = body.uncut;
                     play->bodies.push_back(std::move(made));
@@ -546,9 +546,8 @@ vox_result play_load(playground* play, const void* bytes, uint64_t size) {
         vox_grid* loaded = nullptr;
         check(vox_grid_load(bytes, size, &desc, &loaded));
         const Grid grid(loaded);
-        replace(*play, [&](const std::vector<Body>& old_bodies) {
-            read_bodies(*play, loaded, old_bodies.front());
-        });
+        replace(*play,
+                [&](const std::vector<Body>& old_bodies) { read_bodies(*play, loaded, old_bodies.front()); });
         play->hash = play->steps = 0;
     });
 }

@@ -41,8 +41,8 @@ const char* play_text(const playground* play);
 /* Removes all bodies but the fixed ring. */
 vox_result play_clear(playground* play);
 /* Of all bodies, now and later: the engine that finds their contacts (the vox_cost_model that predicts it),
- * whether they collide with themselves (0 or 1), and their Young's modulus. At first the fast engine, 0 and 2e5.
- */
+ * whether they collide with themselves (0 or 1), and their Young's modulus. At first the fast engine, 0 and
+ * 2e5. */
 vox_result play_configure(playground* play, uint32_t engine, uint32_t self_collision, double stiffness);
 /* The cell size of the scene's grid; 0, as at first: the grid chooses. */
 vox_result play_set_cell_size(playground* play, double cell_size);
