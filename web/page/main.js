@@ -59,6 +59,7 @@ function refuse(text, stays = false) {
   const banner = find("banner");
   banner.textContent = text;
   banner.hidden = false;
+  if (stays) find("loading").hidden = true;
   clearTimeout(bannerTimer);
   if (!stays) bannerTimer = setTimeout(() => (banner.hidden = true), 8000);
   log(text, true);
