@@ -483,7 +483,7 @@ setInterval(() => {
   framesPerSecond = frames * 2;
   playgroundApi.framesPerSecond = framesPerSecond;
   frames = 0;
-  slow = turns < 5 && !document.hidden ? slow + 1 : 0;
+  slow = turns < 5 && !paused && !document.hidden ? slow + 1 : 0;
   if (slow === 6) view.simplify(); // there is no graphics processor, or a slow one
   turns = 0;
   if (facts) showFacts();
