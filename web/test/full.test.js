@@ -406,7 +406,7 @@ test("once loaded, it needs no network", async () => {
 });
 
 test("the time of a step with 30,000 tetrahedra is shown, beside the native one", async (t) => {
-  const done = native([...Array(10).fill("drop 0 3000"), "steps 200", "steps 100"]);
+  const done = native(["configure 1 0 2e5", ...Array(10).fill("drop 0 3000"), "steps 200", "steps 100"]);
   const native200 = Number([...done.stderr.matchAll(/([\d.]+) ms a step/g)][1][1]);
   await visit("?scene=empty&stopped", async (page) => {
     await dropAll(page, 3000, Array(10).fill(0));
