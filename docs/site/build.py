@@ -145,10 +145,10 @@ hide: [navigation, toc]
 
 # Playground
 
-Bodies to drop, drag and cut, and the cost of a step at every cell size. It runs in this page; nothing leaves it.
-[On the whole window](playground/index.html)
-
 <iframe class="vox-playground" src="playground/index.html" title="Playground" loading="lazy"></iframe>
+
+Bodies to drop, drag and cut, and the cost of a step at every cell size. It runs in your browser; nothing leaves it.
+[On the whole window](playground/index.html)
 """
 
 

@@ -1,13 +1,17 @@
-// The curve of costs: predicted times of both algorithms against the cell size, what was measured, and the marks of other rules. As SVG.
+// The curve of one algorithm: how many times the least time a step takes at each cell size, as predicted; on it the sizes of known rules,
+// what vox chose and where the visitor is; and dots that were measured. As SVG.
+import { predictedAt } from "./curve.js";
 
 const SVG = "http://www.w3.org/2000/svg";
 const WIDTH = 460;
-const HEIGHT = 300;
-const LEFT = 46;
-const RIGHT = 10;
-const TOP = 14;
-const BOTTOM = 50;
-const NAMES = { 1: "paper", 2: "fast" };
+const HEIGHT = 320;
+const LEFT = 34;
+const RIGHT = 12;
+const TOP = 96; // above it, a row for each label
+const BOTTOM = 24;
+const MOST = 6; // times the best
+const SPAN = 7; // sizes up to so many times smaller and larger than the best
+const ROWS = [13, 30, 47, 64, 81]; // one for each mark at most
 
 function element(name, attributes, parent, text) {
   const made = document.createElementNS(SVG, name);
@@ -19,14 +23,26 @@ function element(name, attributes, parent, text) {
 
 export const time = (ms) => (ms >= 100 ? `${ms.toFixed(0)} ms` : ms >= 10 ? `${ms.toFixed(1)} ms` : ms >= 0.1 ? `${ms.toFixed(2)} ms` : `${(1000 * ms).toFixed(0)} µs`);
 export const length = (size) => Number(size.toPrecision(3)).toString();
+export const more = (factor) => (factor < 3 ? `+${Math.max(0, (factor - 1) * 100).toFixed(0)} %` : `${factor.toFixed(1)} ×`);
+
+/** From green (the best time) to red (five times as long). */
+export const hue = (factor) => Math.round(140 * (1 - Math.max(0, Math.min(1, Math.log(factor / 1.1) / Math.log(4.5)))));
+
+/** Rules that are named on the curve, by what the library calls them. */
+const NAMED = [[/^mean edge/, "mean edge"], [/^2 mean edges/, "2 mean edges"], [/IPC/, "median box (IPC)"]];
 
 export class Chart {
   #svg;
   #range = [0.05, 5]; // of cell sizes
-  #values = [0.01, 100]; // of milliseconds
 
   constructor(parent) {
     this.#svg = element("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "img" }, parent);
+  }
+
+  /** Green where a step is fast and red where it is slow, from the smallest to the largest size: a CSS gradient. */
+  static track(curve) {
+    const stops = Array.from({ length: 21 }, (_, i) => predictedAt(curve, curve.size * SPAN ** (i / 10 - 1)) / curve.ms);
+    return `linear-gradient(to right, ${stops.map((factor) => `hsl(${hue(factor)} 65% 48%)`).join(", ")})`;
   }
 
   get range() {
@@ -35,71 +51,63 @@ export class Chart {
 
   #x(size) {
     const [a, b] = this.#range.map(Math.log);
-    return LEFT + ((Math.log(size) - a) / (b - a)) * (WIDTH - LEFT - RIGHT);
+    return LEFT + ((Math.log(Math.min(this.#range[1], Math.max(this.#range[0], size))) - a) / (b - a)) * (WIDTH - LEFT - RIGHT);
   }
 
-  #y(ms) {
-    const [a, b] = this.#values.map(Math.log);
-    return HEIGHT - BOTTOM - ((Math.log(ms) - a) / (b - a)) * (HEIGHT - TOP - BOTTOM);
+  #y(factor) {
+    return HEIGHT - BOTTOM - (Math.min(factor, MOST) / MOST) * (HEIGHT - TOP - BOTTOM);
   }
 
-  /** `curves` of each engine; points: measured { engine, size, ms }; chosen: { engine, size }; now: { ms } measured there. */
-  draw({ curves, points, chosen, now }) {
-    const best = curves[chosen.engine];
-    // The same range for both algorithms, wide enough for both minima.
-    const sizes = Object.values(curves).map((curve) => curve.size);
-    this.#range = [Math.min(...sizes) / 7, Math.max(...sizes) * 7];
-    const inRange = ({ size }) => size >= this.#range[0] && size <= this.#range[1];
-    const lows = Object.values(curves).map((curve) => curve.ms);
-    this.#values = [Math.max(Math.min(...lows) / 2.5, Math.max(...lows) / 1000), Math.max(...lows) * 40];
-    const inside = ({ ms }) => ms >= this.#values[0] && ms <= this.#values[1];
-    this.#svg.replaceChildren();
+  /** dots: { size, factor, age (0: new, 1: to be forgotten) or swept }; size: where the visitor is, with what factor. */
+  draw({ curve, dots, size, factor }) {
+    this.#range = [curve.size / SPAN, curve.size * SPAN];
     const svg = this.#svg;
     const bottom = HEIGHT - BOTTOM;
+    const predicted = (at) => predictedAt(curve, at) / curve.ms;
+    svg.replaceChildren();
+    for (let times = 1; times <= MOST; ++times) {
+      const y = this.#y(times);
+      element("line", { class: times === 1 ? "chart-least" : "chart-axis", x1: LEFT, x2: WIDTH - RIGHT, y1: y, y2: y }, svg);
+      element("text", { class: "chart-faint", x: LEFT - 6, y: y + 4, "text-anchor": "end" }, svg, `${times} ×`);
+    }
+    element("line", { class: "chart-axis", x1: LEFT, x2: WIDTH - RIGHT, y1: bottom, y2: bottom }, svg);
+    for (const tick of [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50].filter((at) => at >= this.#range[0] && at <= this.#range[1]))
+      element("text", { class: "chart-faint", x: this.#x(tick), y: bottom + 16, "text-anchor": "middle" }, svg, String(tick));
 
-    const zone = best.zone.map((size) => this.#x(Math.min(this.#range[1], Math.max(this.#range[0], size))));
-    element("rect", { class: "chart-zone", x: zone[0], y: TOP, width: zone[1] - zone[0], height: bottom - TOP }, svg);
-    for (let power = Math.ceil(Math.log10(this.#values[0])); 10 ** power <= this.#values[1]; ++power) {
-      const y = this.#y(10 ** power);
-      element("line", { class: "chart-axis", x1: LEFT, x2: WIDTH - RIGHT, y1: y, y2: y }, svg);
-      element("text", { class: "chart-faint", x: LEFT - 4, y: y + 4, "text-anchor": "end" }, svg, power >= 0 ? `${10 ** power} ms` : `${Math.round(1000 * 10 ** power)} µs`);
-    }
-    for (const size of [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50]) {
-      if (!inRange({ size })) continue;
-      const x = this.#x(size);
-      element("line", { class: "chart-axis", x1: x, x2: x, y1: TOP, y2: bottom }, svg);
-      element("text", { class: "chart-faint", x, y: bottom + 14, "text-anchor": "middle" }, svg, String(size));
-    }
-    element("text", { class: "chart-text", x: (LEFT + WIDTH - RIGHT) / 2, y: HEIGHT - 6, "text-anchor": "middle" }, svg, "cell size");
-    element("text", { class: "chart-text", x: LEFT + 4, y: TOP + 10 }, svg, "time of a step");
-    element("text", { class: "chart-faint", x: (zone[0] + zone[1]) / 2, y: bottom - 5, "text-anchor": "middle" }, svg, "zone: within 5 %");
+    const samples = curve.curve.filter((sample) => sample.size >= this.#range[0] && sample.size <= this.#range[1] && sample.ms / curve.ms <= MOST);
+    const path = samples.map((sample, i) => `${i ? "L" : "M"}${this.#x(sample.size).toFixed(1)} ${this.#y(sample.ms / curve.ms).toFixed(1)}`).join("");
+    if (samples.length > 0)
+      element("path", { class: "chart-area", d: `${path}L${this.#x(samples.at(-1).size)} ${bottom}L${this.#x(samples[0].size)} ${bottom}Z` }, svg);
+    element("path", { class: "chart-line", d: path }, svg);
+    for (const dot of dots)
+      element("circle", { class: dot.swept ? "chart-swept" : "chart-dot", cx: this.#x(dot.size), cy: this.#y(dot.factor), r: 3.5, opacity: dot.swept ? 1 : 0.6 * (1 - dot.age) }, svg);
 
-    for (const rule of best.rules.filter(inRange)) {
-      const x = this.#x(rule.size);
-      element("title", {}, element("path", { class: "chart-rule", d: `M${x} ${bottom}v8`, "stroke-width": 3 }, svg), `${rule.name}: ${length(rule.size)}`);
-    }
-    element("text", { class: "chart-faint", x: LEFT, y: bottom + 28 }, svg, "▮ marks: the rules of others");
-
-    for (const [engine, curve] of Object.entries(curves)) {
-      const faded = Number(engine) === chosen.engine ? "" : " unchosen";
-      const seen = curve.curve.filter((sample) => inRange(sample) && inside(sample));
-      const d = seen.map(({ size, ms }, i) => `${i ? "L" : "M"}${this.#x(size).toFixed(1)} ${this.#y(ms).toFixed(1)}`).join("");
-      element("path", { class: `chart-line ${NAMES[engine]}-line${faded}`, d }, svg);
-      for (const point of points.filter((p) => p.engine === Number(engine) && inRange(p) && inside(p)))
-        element("circle", { class: `${NAMES[engine]}-dot${faded}`, cx: this.#x(point.size), cy: this.#y(point.ms), r: 3.5 }, svg);
-      const last = seen.at(-1);
-      if (last) {
-        const name = engine === "1" ? "the paper's" : "fast";
-        element("text", { class: `chart-text${faded}`, x: WIDTH - RIGHT - 4, y: this.#y(last.ms) - 7, "text-anchor": "end" }, svg, name);
-      }
-    }
-    element("circle", { class: "chart-best", cx: this.#x(best.size), cy: this.#y(best.ms), r: 8 }, svg);
-    element("text", { class: "chart-text", x: this.#x(best.size), y: this.#y(best.ms) + 24, "text-anchor": "middle" }, svg, `predicted best ${length(best.size)}`);
-    const x = this.#x(chosen.size);
-    element("line", { class: "chart-size", x1: x, x2: x, y1: TOP, y2: bottom, "stroke-dasharray": "4 3" }, svg);
-    if (now && inside(now)) element("path", { class: `${NAMES[chosen.engine]}-dot`, d: `M${x} ${this.#y(now.ms) - 7}l7 7l-7 7l-7 -7z` }, svg);
+    const here = Math.abs(Math.log(size / curve.size)) < 1e-3;
+    const marks = [{ name: here ? "chosen by vox: you are here" : `chosen by vox`, at: curve.size, times: 1, kind: "best" }];
+    for (const rule of curve.rules)
+      for (const [pattern, name] of NAMED)
+        if (pattern.test(rule.name)) marks.push({ name: `${name} ${more(predicted(rule.size))}`, at: rule.size, times: predicted(rule.size), kind: "rule" });
+    if (!here) marks.push({ name: `you ${more(factor)}`, at: size, times: factor, kind: "you" });
+    this.#drawMarks(marks);
     svg.setAttribute("aria-label",
-      `Predicted time of a step against the cell size. It is least, ${time(best.ms)}, at the cell size ${length(best.size)}, and grows to both sides. ` +
-      `The line is at ${length(chosen.size)}.`);
+      `Predicted time of a step against the cell size. It is least at the cell size ${length(curve.size)}, which vox chose, and grows to both sides. ` +
+      `You are at ${length(size)}, with ${factor.toFixed(1)} times the least time. ` + marks.slice(1).map(({ name, at }) => `${name}: ${length(at)}.`).join(" "));
+  }
+
+  /** Each label in the first row where it has room, with a line down to its point. */
+  #drawMarks(marks) {
+    const ends = ROWS.map(() => -Infinity);
+    const labels = element("g", {});
+    for (const mark of marks.toSorted((a, b) => a.at - b.at)) {
+      const x = this.#x(mark.at);
+      const half = 4.3 * mark.name.length + 4;
+      const middle = Math.min(WIDTH - half, Math.max(half, x));
+      const row = ends.findIndex((end) => end < middle - half);
+      ends[row] = middle + half;
+      element("line", { class: `chart-lead ${mark.kind}`, x1: x, x2: x, y1: ROWS[row] + 5, y2: this.#y(mark.times) }, this.#svg);
+      element("circle", { class: `chart-mark ${mark.kind}`, cx: x, cy: this.#y(mark.times), r: mark.kind === "rule" ? 4.5 : 7 }, this.#svg);
+      element("text", { class: `chart-label ${mark.kind}`, x: middle, y: ROWS[row], "text-anchor": "middle" }, labels, mark.name);
+    }
+    this.#svg.append(labels); // over all lines
   }
 }

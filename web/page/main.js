@@ -1,11 +1,17 @@
 // The page: controls, what a visitor does with pointer and keys, and the figures beside the bodies. The scene itself runs in worker.js.
-import { Chart, length, time } from "./chart.js";
+import { Chart, hue, length, more, time } from "./chart.js";
 import { predictedAt } from "./curve.js";
+import { SAMPLES } from "./samples.js";
 import { KINDS } from "./scene.js";
 import { View } from "./view.js";
 
 const DROPPED = KINDS.slice(0, 5); // what the page makes itself
 const MOST_LINES = 100; // of the log
+const MOST_DOTS = 10; // that stay where the slider was
+const ABOUT = {
+  1: "One cell size for all bodies, as in the paper: a wrong one costs a multiple.",
+  2: "Its cost hardly depends on the size. With cell_size = 0 it gives each body its own.",
+};
 const find = (id) => document.getElementById(id);
 const count = (n) => Math.round(n).toLocaleString("en");
 
@@ -16,12 +22,14 @@ const parameters = new URLSearchParams(location.search);
 
 let facts = null;
 let hash = "";
-let curves = null;
-let points = [];
-let trail = new Map(); // what was measured where the slider has been, by algorithm and size
-let measured = null;
-let chosen = { engine: 1, size: 0 };
+let curve = null; // of the chosen algorithm
+let dots = []; // measured where the slider has been: { size, part: of the predicted time }; the last one is the newest
+let swept = new Map(); // sizes, and how many times the time at the best
+let sweeping = false;
+let engine = 1;
+let size = 0;
 let followsBest = true; // until the slider is moved
+let cellsUntil = 0; // drawn while the slider moves
 let paused = false;
 let waiting = new Map();
 let nextReply = 1;
@@ -51,45 +59,59 @@ function refuse(text, stays = false) {
   const banner = find("banner");
   banner.textContent = text;
   banner.hidden = false;
+  if (stays) find("loading").hidden = true;
   clearTimeout(bannerTimer);
   if (!stays) bannerTimer = setTimeout(() => (banner.hidden = true), 8000);
   log(text, true);
 }
 
-function showFacts() {
-  const shown = [
-    ["tetrahedra", count(facts.tets)],
-    ["contacts", count(facts.contacts)],
-    ["deepest", facts.deepest.toFixed(3)],
-    ["a step", time(facts.stepNs / 1e6)],
-    ["of it, collision", time(facts.detectNs / 1e6)],
-    ["cell size, by itself", length(facts.cellSize)],
-    ["pictures a second", String(framesPerSecond)],
-    ["memory", `${(facts.bytes / 1e6).toFixed(0)} of ${(facts.byteLimit / 1e6).toFixed(0)} MB`],
-    ["state", facts.asleep ? "asleep: nothing moves" : paused ? "stopped" : "awake"],
-    ["hash of all contacts", hash],
-  ];
-  if (find("show-cells").checked) shown.push(["cells with vertices", count(view.cellCount)]);
-  find("facts").replaceChildren(
-    ...shown.map(([name, value]) => {
+const seen = () => ({ size, cells: find("show-cells").checked || performance.now() < cellsUntil });
+
+function list(id, pairs) {
+  find(id).replaceChildren(
+    ...pairs.map(([name, value]) => {
       const pair = document.createElement("div");
-      const term = document.createElement("dt");
-      term.textContent = name;
-      const detail = document.createElement("dd");
-      detail.textContent = value;
-      pair.append(term, detail);
+      pair.append(Object.assign(document.createElement("dt"), { textContent: name }), Object.assign(document.createElement("dd"), { textContent: value }));
       return pair;
     }),
   );
 }
 
-function paragraph(text) {
-  const made = document.createElement("p");
-  made.textContent = text;
-  return made;
+function showFacts() {
+  list("facts", [
+    ["fps", String(framesPerSecond)],
+    [facts.contacts === 1 ? "contact" : "contacts", count(facts.contacts)],
+    ["touching pairs", count(facts.pairs)],
+    ["deepest overlap", facts.deepest.toFixed(3)],
+    [facts.asleep ? "at rest" : paused ? "paused" : "moving", ""],
+  ]);
+  list("more-facts", [
+    ["tetrahedra", count(facts.tets)],
+    ["a step, with motion and depths", time(facts.stepNs / 1e6)],
+    ["of it collision detection", time(facts.detectNs / 1e6)],
+    ["memory", `${(facts.bytes / 1e6).toFixed(0)} of ${(facts.byteLimit / 1e6).toFixed(0)} MB`],
+    ...(seen().cells ? [["cells with vertices", count(view.cellCount)]] : []),
+  ]);
+  find("hash").textContent = `${hash.slice(0, 8)}…`;
 }
+find("copy-hash").addEventListener("click", async () => {
+  await navigator.clipboard.writeText(hash);
+  find("copy-hash").textContent = "Copied";
+  setTimeout(() => (find("copy-hash").textContent = "Copy"), 1500);
+});
 
-const times = (factor) => (factor < 1.095 ? `${Math.max(0, (factor - 1) * 100).toFixed(0)} % more than` : `${factor.toFixed(1)} times`);
+// ---- the cell size ----
+
+const median = (values) => values.toSorted((a, b) => a - b)[values.length >> 1];
+
+/** How many times the predicted times the measured ones are: the height of the curve; its shape is predicted. */
+const height = () => (dots.length > 0 ? median(dots.map(({ part }) => part)) : 1);
+
+/** How many times the least time a step takes here: as measured, or else as predicted. */
+function factorHere() {
+  const here = dots.at(-1);
+  return (predictedAt(curve, size) / curve.ms) * (here?.size === size ? here.part / height() : 1);
+}
 
 // At most ten times a second.
 let costTimer = null;
@@ -100,45 +122,30 @@ function showCost() {
   }, 100);
 }
 
-let verdictText = "";
 function showCostNow() {
-  if (!curves) return;
-  const best = curves[chosen.engine];
-  if (followsBest) setSize(best.size);
-  const now = measured && measured.engine === chosen.engine && measured.size === chosen.size ? measured : null;
-  const seen = [...points, ...trail.values()];
-  chart.draw({ curves, points: seen, chosen, now });
-  find("size").value = String(Math.round(placeOf(chosen.size))); // another place now, as the range follows the curves
-  showSize();
-  const predicted = predictedAt(best, chosen.size);
-  const algorithm = chosen.engine === 1 ? "the paper's algorithm" : "the fast engine";
-  const lines = [];
-  const least = Math.min(predicted, best.ms);
-  const atBest = chosen.size === best.size;
-  lines.push(
-    `At the cell size ${length(chosen.size)}, ${algorithm} ${now ? `takes ${time(now.ms)}` : "takes … ms"} for a step (predicted: ${time(predicted)}).` +
-      (atBest ? " This is the predicted best." : ` That is ${times(predicted / least)} what is predicted at the best size, ${length(best.size)}.`),
-  );
-  const swept = points.filter((point) => point.engine === chosen.engine);
-  const other = seen.find((point) => !point.same);
-  if (other) lines.push(`The contacts differ at the cell size ${length(other.size)}: please report this.`);
-  else if (seen.length > 0) lines.push("The contacts are the same at every size, bit for bit. Only the time changes.");
-  if (swept.length > 2) {
-    const fastest = swept.reduce((a, b) => (b.ms < a.ms ? b : a));
-    const nearest = swept.reduce((a, b) => (Math.abs(Math.log(b.size / best.size)) < Math.abs(Math.log(a.size / best.size)) ? b : a));
-    const slowest = swept.reduce((a, b) => (b.ms > a.ms ? b : a));
-    lines.push(
-      `Measured: of ${swept.length} sizes, ${length(fastest.size)} was the fastest (${time(fastest.ms)}) and ${length(slowest.size)} the slowest (${time(slowest.ms)}). ` +
-        `The predicted best, ${length(nearest.size)}, took ${time(nearest.ms)}, ${nearest === fastest ? "and is the fastest" : `${((nearest.ms / fastest.ms - 1) * 100).toFixed(0)} % more than the fastest`}.`,
-    );
-  }
-  const text = lines.join("\n");
-  if (text !== verdictText) {
-    verdictText = text;
-    find("verdict").replaceChildren(...lines.map(paragraph));
-  }
-  fillTable("terms", best.work.toSorted((a, b) => b.share - a.share), (term) => [term.name, count(term.count), `${(100 * term.share).toFixed(0)} %`]);
-  fillTable("rules", [{ name: "predicted best", size: best.size, ms: best.ms }, ...best.rules], (rule) => [rule.name, length(rule.size), time(rule.ms)]);
+  if (!curve) return;
+  if (followsBest) choose(curve.size);
+  const factor = factorHere();
+  const fit = height();
+  chart.draw({
+    curve, size, factor,
+    dots: [
+      ...dots.map((dot, i) => ({ size: dot.size, factor: ((predictedAt(curve, dot.size) / curve.ms) * dot.part) / fit, age: 1 - (i + 1) / dots.length })).slice(0, -1),
+      ...[...swept].map(([at, times]) => ({ size: at, factor: times, swept: true })),
+    ],
+  });
+  const ms = factor * fit * curve.ms;
+  document.documentElement.style.setProperty("--heat", String(hue(factor)));
+  find("size").style.setProperty("--track", Chart.track(curve));
+  find("step-time").textContent = time(ms);
+  find("step-factor").textContent = factor < 1.1 ? "the best" : `${factor.toFixed(1)} × the best`;
+  find("size").value = String(Math.round(placeOf(size))); // another place now, as the range follows the curve
+  const edge = curve.rules[0].size; // the mean edge
+  const text = `${length(size)} = ${(size / edge).toFixed(2)} mean edges`;
+  find("size-text").textContent = text;
+  find("size").setAttribute("aria-valuetext", `${text}, ${factor.toFixed(1)} times the best time`);
+  fillTable("terms", curve.work.toSorted((a, b) => b.share - a.share), (term) => [term.name, count(term.count), `${(100 * term.share).toFixed(0)} %`]);
+  fillTable("rules", [{ name: "vox", size: curve.size, ms: curve.ms }, ...curve.rules], (rule) => [rule.name, length(rule.size), more(rule.ms / curve.ms)]);
 }
 
 function fillTable(id, rows, cells) {
@@ -151,48 +158,74 @@ function fillTable(id, rows, cells) {
   );
 }
 
-// ---- the slider: even in the logarithm of the size ----
-
-const sizeAt = (place) => chart.range[0] * (chart.range[1] / chart.range[0]) ** (place / 1000);
-const placeOf = (size) => (1000 * Math.log(size / chart.range[0])) / Math.log(chart.range[1] / chart.range[0]);
-
-function setSize(size) {
-  if (size === chosen.size) return;
-  chosen = { ...chosen, size };
-  act("choose", chosen);
+function say(text, bad = false) {
+  find("verdict").replaceChildren(...(text ? [Object.assign(document.createElement("p"), { textContent: text, className: bad ? "bad" : "" })] : []));
 }
 
-function showSize() {
-  const edge = curves[chosen.engine].rules[0].size; // the mean edge
-  const text = `${length(chosen.size)}, ${(chosen.size / edge).toFixed(2)} mean edges`;
-  find("size-text").textContent = text;
-  find("size").setAttribute("aria-valuetext", text);
+// The slider is even in the logarithm of the size.
+const sizeAt = (place) => chart.range[0] * (chart.range[1] / chart.range[0]) ** (place / 1000);
+const placeOf = (at) => (1000 * Math.log(at / chart.range[0])) / Math.log(chart.range[1] / chart.range[0]);
+
+function choose(chosen) {
+  if (chosen === size) return;
+  size = chosen;
+  playgroundApi.size = size;
+  act("choose", { size });
+  view.setCells(seen().size, seen().cells);
 }
 
 find("size").addEventListener("input", (event) => {
-  if (!curves) return;
+  if (!curve) return;
   followsBest = false;
-  setSize(sizeAt(Number(event.target.value)));
-  showSize();
-  showCost();
+  cellsUntil = performance.now() + 1500;
+  choose(sizeAt(Number(event.target.value)));
+  showCostNow();
 });
 find("best").addEventListener("click", () => {
   followsBest = true;
+  cellsUntil = performance.now() + 1500;
   showCostNow();
 });
+function forget() {
+  dots = [];
+  swept.clear();
+  say("");
+}
+const settings = () => ({ engine, self: find("self").checked, stiffness: 2e5 * 10 ** Number(find("stiffness").value) });
+function configure() {
+  act("configure", settings());
+  const pascals = settings().stiffness;
+  find("stiffness").setAttribute("aria-valuetext", `${count(pascals / 1000)} kilopascals`);
+}
+for (const id of ["self", "stiffness"]) find(id).addEventListener("change", configure);
 for (const input of document.getElementsByName("engine"))
   input.addEventListener("change", () => {
-    chosen = { ...chosen, engine: Number(input.value) };
-    act("choose", chosen);
-    showCost();
+    engine = Number(input.value);
+    followsBest = true;
+    curve = null;
+    forget();
+    find("about-engine").textContent = ABOUT[engine];
+    configure();
   });
+find("about-engine").textContent = ABOUT[engine];
 find("sweep").addEventListener("click", () => {
+  sweeping = true;
   find("sweep").disabled = true;
-  points = [];
-  trail.clear();
-  log("all sizes are measured, with bodies that stand still meanwhile");
+  swept.clear();
+  say("");
   act("sweep");
 });
+
+/** What measuring all sizes has shown. */
+function conclude() {
+  const all = [...swept];
+  if (all.length < 3) return;
+  const [best, least] = all.reduce((a, b) => (b[1] < a[1] ? b : a));
+  const [worst, most] = all.reduce((a, b) => (b[1] > a[1] ? b : a));
+  const chosen = all.reduce((a, b) => (Math.abs(Math.log(b[0] / curve.size)) < Math.abs(Math.log(a[0] / curve.size)) ? b : a));
+  say(`Best of ${all.length} sizes: ${length(best)}. Chosen without measuring: ${length(chosen[0])}, ${chosen[0] === best ? "the same" : more(chosen[1] / least)}. ` +
+    `Worst: ${length(worst)}, ${(most / least).toFixed(1)} times as long.`);
+}
 
 // ---- what the worker says ----
 
@@ -206,9 +239,11 @@ const heard = {
   bodies({ bodies }) {
     view.setBodies(bodies);
     playgroundApi.bodies = bodies.length;
-    points = []; // of other bodies
-    trail.clear();
-    measured = null;
+    playgroundApi.list = bodies;
+    forget(); // what was measured was of other bodies
+  },
+  came({ origin, frames: near }) {
+    if (started) view.show(origin, near);
   },
   frame(frame) {
     facts = frame.facts;
@@ -216,28 +251,36 @@ const heard = {
     playgroundApi.facts = facts;
     playgroundApi.hash = hash;
     playgroundApi.positions = frame.positions;
-    view.setFrame(frame, find("show-cells").checked ? chosen.size : 0);
+    view.setFrame(frame, seen());
   },
-  curves(sent) {
-    curves = sent.curves;
-    playgroundApi.curves = curves;
+  curve(sent) {
+    if (sent.engine !== engine) return;
+    curve = sent.curve;
+    playgroundApi.curve = curve;
+    for (const id of ["size", "best"]) find(id).disabled = false;
+    find("sweep").disabled = sweeping;
+    find("loading").hidden = true;
     showCostNow();
   },
   measured(sent) {
-    measured = sent;
+    if (sent.engine !== engine || !curve) return;
     playgroundApi.measured = sent;
-    trail.set(`${sent.engine} ${sent.size}`, sent);
-    if (trail.size > 200) trail.delete(trail.keys().next().value);
+    dots = [...dots.filter((dot) => Math.abs(Math.log(dot.size / sent.size)) > 0.04), { size: sent.size, part: sent.ms / predictedAt(curve, sent.size) }].slice(-MOST_DOTS);
+    if (sent.same === false) say(`The contacts differ at the cell size ${length(sent.size)}. Please report this.`, true);
     showCost();
   },
-  sweeping({ part }) {
+  point({ size: at, factor, same, part }) {
+    swept.set(at, factor);
     find("sweep").textContent = `Measuring: ${Math.round(100 * part)} %`;
+    if (!same) say(`The contacts differ at the cell size ${length(at)}. Please report this.`, true);
+    showCost();
   },
-  swept(sent) {
-    points = sent.points;
-    playgroundApi.points = points;
+  swept({ complete }) {
+    sweeping = false;
     find("sweep").disabled = false;
     find("sweep").textContent = "Measure all sizes";
+    playgroundApi.swept = [...swept];
+    if (complete && !find("verdict").querySelector(".bad")) conclude();
     showCost();
   },
   event({ text, bad }) {
@@ -269,14 +312,18 @@ const drop = () => act("drop", { kind: Number(find("kind").value), tets: tets() 
 function setPaused(on) {
   paused = on;
   find("pause").setAttribute("aria-pressed", String(on));
-  find("pause").textContent = on ? "Go on" : "Stop";
+  find("pause").textContent = on ? "Resume" : "Pause";
   act("pause", { on });
 }
 
 find("drop").addEventListener("click", drop);
+find("samples").append(...Object.entries(SAMPLES).map(([name, { make, tets: about }]) => {
+  const button = Object.assign(document.createElement("button"), { textContent: name[0].toUpperCase() + name.slice(1) });
+  button.addEventListener("click", () => act("file", { name, bytes: new TextEncoder().encode(make()), tets: about, yUp: true, format: "obj" }));
+  return button;
+}));
 find("clear").addEventListener("click", () => act("clear"));
 find("pause").addEventListener("click", () => setPaused(!paused));
-find("self").addEventListener("change", (event) => act("self", { on: event.target.checked }));
 const shownParts = () => ({
   contacts: find("show-contacts").checked,
   tiles: find("show-tiles").checked,
@@ -303,7 +350,7 @@ async function takeFile(file) {
     return refuse(`${file.name}: ${error.message}`);
   }
   if (file.name.endsWith(".vox")) act("restore", { name: file.name, bytes }, [bytes.buffer]);
-  else act("file", { name: file.name, bytes, tets: tets() }, [bytes.buffer]);
+  else act("file", { name: file.name, bytes, tets: tets(), yUp: find("y-up").checked }, [bytes.buffer]);
   return undefined;
 }
 for (const id of ["file", "snapshot"])
@@ -321,10 +368,10 @@ document.addEventListener("drop", async (event) => {
 
 const canvas = find("view");
 let held = null; // the point that is dragged
-let stroke = null; // where a cut began
+let stroke = null; // where a cut began: { at }
 
 const mode = () => document.querySelector('input[name="mode"]:checked').value;
-const hints = { drag: "Drag a body. Drag beside it to turn the view.", cut: "Draw a line across bodies.", look: "Drag to turn the view, pinch or turn the wheel to come nearer." };
+const hints = { drag: "Drag a body. Drag beside it to orbit.", cut: "Draw a line across bodies.", look: "Drag to orbit, pinch or turn the wheel to zoom." };
 for (const input of document.getElementsByName("mode")) input.addEventListener("change", () => (find("hint").textContent = hints[mode()]));
 
 canvas.addEventListener(
@@ -337,7 +384,7 @@ canvas.addEventListener(
     view.controls.enabled = !takes;
     if (!takes) return;
     canvas.setPointerCapture(event.pointerId);
-    if (mode() === "cut") stroke = ray;
+    if (mode() === "cut") stroke = { at: [event.clientX, event.clientY] };
     else {
       held = { pending: true };
       const point = await ask("grab", ray);
@@ -348,6 +395,7 @@ canvas.addEventListener(
   { capture: true }, // before the view's own
 );
 canvas.addEventListener("pointermove", (event) => {
+  if (stroke) drawStroke(stroke.at, [event.clientX, event.clientY]);
   if (!held?.point) return;
   held.point = view.beside(view.ray(event.clientX, event.clientY), held.point);
   act("drag", { point: held.point });
@@ -356,14 +404,26 @@ function pointerEnds(event) {
   view.controls.enabled = true;
   if (held) act("letGo");
   held = null;
-  if (stroke && event.type === "pointerup") cutBetween(stroke, view.ray(event.clientX, event.clientY));
+  if (stroke && event.type === "pointerup") cutBetween(stroke.at, [event.clientX, event.clientY]);
   stroke = null;
+  find("stroke").classList.remove("drawn"); // it fades
 }
 canvas.addEventListener("pointerup", pointerEnds);
 canvas.addEventListener("pointercancel", pointerEnds);
 
-async function cutBetween(first, second) {
-  const cut = await ask("cut", { eye: first.from, first: first.to, second: second.to });
+function drawStroke(from, to) {
+  const box = canvas.getBoundingClientRect();
+  const line = find("stroke").firstElementChild;
+  for (const [name, value] of Object.entries({ x1: from[0] - box.left, y1: from[1] - box.top, x2: to[0] - box.left, y2: to[1] - box.top })) line.setAttribute(name, value);
+  find("stroke").classList.add("drawn");
+}
+
+/** A cut between two places of the page, drawn. */
+async function cutBetween(from, to) {
+  drawStroke(from, to);
+  requestAnimationFrame(() => find("stroke").classList.remove("drawn"));
+  const first = view.ray(...from);
+  const cut = await ask("cut", { eye: first.from, first: first.to, second: view.ray(...to).to });
   if (cut === 0) log("the line crosses no body");
 }
 
@@ -371,7 +431,7 @@ async function cutBetween(first, second) {
 function halve() {
   const box = canvas.getBoundingClientRect();
   const [x] = view.centre;
-  return cutBetween(view.ray(x, box.top), view.ray(x, box.bottom));
+  return cutBetween([x, box.top], [x, box.bottom]);
 }
 find("halve").addEventListener("click", halve);
 
@@ -405,8 +465,17 @@ canvas.addEventListener("keydown", async (event) => {
 
 // ---- drawing ----
 
+let turns = 0; // of the browser, to draw
+let slow = 0; // half seconds in a row
 function draw() {
+  ++turns;
   if (view.draw()) ++frames;
+  const label = view.label;
+  find("name").hidden = !label;
+  if (label) {
+    find("name").textContent = label.name;
+    Object.assign(find("name").style, { left: `${label.x}px`, top: `${label.y}px` });
+  }
   requestAnimationFrame(draw);
 }
 requestAnimationFrame(draw);
@@ -414,18 +483,54 @@ setInterval(() => {
   framesPerSecond = frames * 2;
   playgroundApi.framesPerSecond = framesPerSecond;
   frames = 0;
+  slow = turns < 5 && !paused && !document.hidden ? slow + 1 : 0;
+  if (slow === 6) view.simplify(); // there is no graphics processor, or a slow one
+  turns = 0;
   if (facts) showFacts();
 }, 500);
 
 const stands = parameters.has("stopped") || matchMedia("(prefers-reduced-motion: reduce)").matches;
 
+// ---- tabs, where the screen is narrow; light or dark ----
+
+const tabs = [find("tab-cost"), find("tab-play")];
+function openTab(tab) {
+  for (const other of tabs) {
+    other.setAttribute("aria-selected", String(other === tab));
+    other.tabIndex = other === tab ? 0 : -1;
+  }
+  document.body.dataset.tab = tab.getAttribute("aria-controls");
+}
+for (const tab of tabs) {
+  tab.addEventListener("click", () => openTab(tab));
+  tab.addEventListener("keydown", (event) => {
+    if (event.key !== "ArrowLeft" && event.key !== "ArrowRight") return;
+    const other = tabs[1 - tabs.indexOf(tab)];
+    openTab(other);
+    other.focus();
+  });
+}
+
+/** As the page around this one says, by ?scheme= or a message, or else as the system does. */
+const dark = matchMedia("(prefers-color-scheme: dark)");
+function setScheme(scheme) {
+  if (scheme === "light" || scheme === "dark") document.documentElement.dataset.scheme = scheme;
+  view.setScheme(document.documentElement.dataset.scheme ?? (dark.matches ? "dark" : "light"));
+}
+dark.addEventListener("change", () => setScheme());
+addEventListener("message", ({ source, data }) => source === parent && setScheme(data?.scheme));
+setScheme(parameters.get("scheme"));
+
+let started = false; // the first bodies are there
+
 /** What a visitor finds at first. ?scene=empty begins without bodies; for those who want less motion, it stands still. */
 function start() {
-  if (parameters.get("scene") !== "empty") for (let i = 0; i < 10; ++i) act("drop", { kind: i % DROPPED.length, tets: tets() });
+  if (parameters.get("scene") !== "empty") for (let i = 0; i < 10; ++i) act("drop", { kind: (i + 2) % DROPPED.length, tets: tets() });
   if (stands) {
     setPaused(true);
-    log("it stands still, as less motion was asked for: Go on starts it");
+    log("it stands still, as less motion was asked for: Resume starts it");
   }
+  ask("nothing").then(() => (started = true));
 }
 
 /** For programs, and for the console: what the page knows, and acts by name. */
@@ -441,4 +546,4 @@ const playgroundApi = {
 globalThis.playground = playgroundApi;
 
 const memory = Number(parameters.get("memory") ?? 1000) * 1e6;
-act("start", { paused: stands, memory: Number.isFinite(memory) && memory > 0 ? memory : 1e9, ...(parameters.has("plain") && { simd: false }) });
+act("start", { paused: stands, settings: settings(), memory: Number.isFinite(memory) && memory > 0 ? memory : 1e9, ...(parameters.has("plain") && { simd: false }) });

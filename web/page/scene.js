@@ -5,7 +5,7 @@ export const ENGINE = { paper: 1, fast: 2 };
 /** play_kind. */
 export const KINDS = ["ball", "box", "ring", "capsule", "bar", "file"];
 export const FIXED = KINDS.length;
-const FACTS = ["tets", "contacts", "deepest", "stepNs", "detectNs", "cellSize", "maxSpeed", "steps", "asleep", "bytes", "byteLimit"];
+const FACTS = ["tets", "contacts", "deepest", "stepNs", "detectNs", "gridNs", "cellSize", "maxSpeed", "steps", "asleep", "bytes", "byteLimit", "pairs"];
 
 /** A module with one instruction of the SIMD of 128 bits. */
 const simdProbe = Uint8Array.of(0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11);
@@ -101,9 +101,9 @@ export class Scene {
   }
 
   /** What was odd about the file. */
-  dropFile(name, bytes, tets) {
+  dropFile(name, bytes, tets, yUp) {
     this.#with(new TextEncoder().encode(`${name}\0`), (nameAt) =>
-      this.#with(bytes, (at) => this.#check(this.#exports.play_drop_file(this.#play, nameAt, at, BigInt(bytes.length), tets))),
+      this.#with(bytes, (at) => this.#check(this.#exports.play_drop_file(this.#play, nameAt, at, BigInt(bytes.length), tets, Number(yUp)))),
     );
     return this.#text(this.#exports.play_text(this.#play));
   }
@@ -112,8 +112,12 @@ export class Scene {
     this.#check(this.#exports.play_clear(this.#play));
   }
 
-  setSelfCollision(on) {
-    this.#check(this.#exports.play_set_self_collision(this.#play, Number(on)));
+  configure({ engine, self, stiffness }) {
+    this.#check(this.#exports.play_configure(this.#play, engine, Number(self), stiffness));
+  }
+
+  setCellSize(size) {
+    this.#check(this.#exports.play_set_cell_size(this.#play, size));
   }
 
   step() {
@@ -150,9 +154,9 @@ export class Scene {
   bodies() {
     const memory = () => this.#exports.memory.buffer;
     return Array.from({ length: this.#exports.play_body_count(this.#play) }, (_, i) => {
-      const [positions, triangles, vertexCount, triangleCount, serial, kind, mesh] = new Uint32Array(
-        memory(), this.#exports.play_get_body(this.#play, i), 7);
-      return { positions, vertexCount, serial, kind, mesh, triangles: new Uint32Array(memory(), triangles, 3 * triangleCount).slice() };
+      const [positions, triangles, vertexCount, triangleCount, uncut, serial, origin, kind] = new Uint32Array(
+        memory(), this.#exports.play_get_body(this.#play, i), 8);
+      return { positions, vertexCount, uncut, serial, origin, kind, triangles: new Uint32Array(memory(), triangles, 3 * triangleCount).slice() };
     });
   }
 
@@ -169,10 +173,6 @@ export class Scene {
 
   penetrations() {
     return this.#list((at) => this.#exports.play_penetrations(this.#play, at), Float32Array, 6);
-  }
-
-  touches() {
-    return this.#list((at) => this.#exports.play_touches(this.#play, at), Uint32Array, 3);
   }
 
   tiles() {

@@ -1,10 +1,48 @@
 // What is drawn of the scene, by three.js, and where the pointer is in it.
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { BodyMesh } from "./body.js";
 import { FIXED } from "./scene.js";
 
-const PALETTE = [0x4e93c9, 0xd9803f, 0x5fa463, 0xb96bb0, 0xc9a93a, 0x56b0a8, 0xcf6464, 0x8a83cf];
+const PALETTE = [0x3d8bd4, 0xf08a3c, 0x4fae62, 0xc069b8, 0xe0b93a, 0x43b3a6, 0xe06666, 0x8b7fe0];
+const RING = 0x8d99a6;
+const COLOURS = {
+  light: { sky: 0xdfe6ed, air: 0xf2f7ff, ground: 0xc9d2db, line: 0x2a4560 },
+  dark: { sky: 0x161b21, air: 0xb8cbe2, ground: 0x46525e, line: 0xb4d0ee },
+};
 const MOST_CELLS = 4000; // that are drawn
+const CONTACT = 0xe3122f;
+
+/** The ground: cells of the chosen size, as thin lines that fade towards the horizon. */
+const groundLines = {
+  vertexShader: "varying vec2 at; void main() { at = position.xy; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }",
+  fragmentShader: `varying vec2 at; uniform float size; uniform vec3 color; uniform float strength;
+    void main() {
+      vec2 cell = at / size, width = fwidth(cell);
+      vec2 near = abs(fract(cell - 0.5) - 0.5) / max(width, vec2(1e-6));
+      float line = 1.0 - min(min(near.x, near.y), 1.0);
+      float fade = smoothstep(9.0, 3.0, length(at)) * smoothstep(0.5, 0.15, max(width.x, width.y));
+      gl_FragColor = vec4(color, strength * line * fade);
+    }`,
+};
+
+/** A contact: a round dot with a white rim, larger where it is deeper. */
+const contactDots = {
+  vertexShader: `attribute float depth; uniform float scale; varying float shown;
+    void main() {
+      gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+      float part = clamp(depth / 0.06, 0.0, 1.0);
+      shown = mix(0.55, 1.0, part);
+      gl_PointSize = scale * mix(4.5, 15.0, sqrt(part));
+    }`,
+  fragmentShader: `uniform vec3 color; varying float shown;
+    void main() {
+      float far = 2.0 * length(gl_PointCoord - 0.5);
+      if (far > 1.0) discard;
+      vec3 seen = mix(color, vec3(1.0), smoothstep(0.58, 0.7, far));
+      gl_FragColor = vec4(seen, shown * smoothstep(1.0, 0.85, far));
+    }`,
+};
 
 /** Lines along the edges of boxes, given as min and max. */
 function boxLines(boxes, out) {
@@ -31,7 +69,7 @@ class Changing {
     scene.add(this.object);
   }
 
-  /** `write` fills an array with at most `most` numbers and returns how many vertices there are. */
+  /** `write` fills an array with at most `most` numbers, and depths of points, and returns how many vertices there are. */
   set(most, write) {
     const { geometry } = this.object;
     let attribute = geometry.getAttribute("position");
@@ -39,9 +77,11 @@ class Changing {
       geometry.dispose();
       attribute = new THREE.BufferAttribute(new Float32Array(Math.max(most, 3)), 3).setUsage(THREE.DynamicDrawUsage);
       geometry.setAttribute("position", attribute);
+      geometry.setAttribute("depth", new THREE.BufferAttribute(new Float32Array(attribute.count), 1).setUsage(THREE.DynamicDrawUsage));
     }
-    geometry.setDrawRange(0, write(attribute.array));
-    attribute.needsUpdate = true;
+    const depths = geometry.getAttribute("depth");
+    geometry.setDrawRange(0, write(attribute.array, depths.array));
+    attribute.needsUpdate = depths.needsUpdate = true;
     this.object.visible = true;
   }
 
@@ -54,58 +94,81 @@ export class View {
   #canvas;
   #renderer;
   #scene = new THREE.Scene();
-  #camera = new THREE.PerspectiveCamera(45, 1, 0.05, 200);
+  #camera = new THREE.PerspectiveCamera(40, 1, 0.1, 200);
   #controls;
-  #bodies = []; // { mesh, first, count, body }
+  #bodies = []; // { body, first, drawn: a BodyMesh from the first frame on }
   #positions = new Float32Array(0);
   #needsDrawing = true;
+  #ground = new THREE.Mesh(new THREE.CircleGeometry(80, 64), new THREE.MeshLambertMaterial());
+  #air = new THREE.HemisphereLight(); // light from all around
+  #lattice;
   #arrows;
   #dots;
   #tiles;
   #windows;
   #cells;
-  #floor;
   #cellCount = 0;
+  #followed = null; // { origin, until, near: whether the camera goes there }
 
   constructor(canvas) {
     this.#canvas = canvas;
-    this.#renderer = new THREE.WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
-    this.#renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    const renderer = new THREE.WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
+    this.#renderer = renderer;
+    renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    renderer.toneMapping = THREE.NeutralToneMapping;
+    renderer.shadowMap.enabled = true;
+    renderer.shadowMap.type = THREE.PCFShadowMap;
     this.#camera.up.set(0, 0, 1);
-    this.#camera.position.set(6.5, -9, 7);
+    this.#camera.position.set(6.2, -10.2, 6.6);
     this.#controls = new OrbitControls(this.#camera, canvas);
-    this.#controls.target.set(0, 0, 1);
+    this.#controls.target.set(0, 0, 0.9);
     this.#controls.minDistance = 2;
     this.#controls.maxDistance = 60;
     this.#controls.maxPolarAngle = 0.5 * Math.PI - 0.02;
     this.#controls.addEventListener("change", () => (this.#needsDrawing = true));
+    this.#controls.addEventListener("start", () => this.#followed && (this.#followed.near = false));
     this.#controls.update();
-    this.#scene.add(new THREE.HemisphereLight(0xffffff, 0x8a8a80, 1.7));
-    const sun = new THREE.DirectionalLight(0xffffff, 1.9);
-    sun.position.set(4, -6, 10);
+    this.#air.position.set(0, 0, 1);
+    const back = new THREE.DirectionalLight(0xbfd8ff, 0.7);
+    back.position.set(-6, 5, 3);
+    this.#scene.add(this.#air, back);
+    const sun = new THREE.DirectionalLight(0xfff1df, 2.4);
+    sun.position.set(5, -5, 11);
+    sun.castShadow = true;
+    sun.shadow.mapSize.set(2048, 2048);
+    Object.assign(sun.shadow.camera, { left: -7, right: 7, top: 7, bottom: -7, near: 1, far: 30 });
+    sun.shadow.normalBias = 0.03;
+    sun.shadow.radius = 3;
     this.#scene.add(sun);
-    this.#cells = new Changing(this.#scene, THREE.LineSegments, new THREE.LineBasicMaterial({ transparent: true, opacity: 0.35 }));
-    this.#tiles = new Changing(this.#scene, THREE.LineSegments, new THREE.LineBasicMaterial({ color: 0x5fa463 }));
+    this.#ground.receiveShadow = true;
+    this.#lattice = new THREE.Mesh(new THREE.PlaneGeometry(20, 20), new THREE.ShaderMaterial({
+      ...groundLines, transparent: true, depthWrite: false, uniforms: { size: { value: 1 }, color: { value: new THREE.Color() }, strength: { value: 0 } },
+    }));
+    this.#lattice.position.z = 0.003;
+    this.#scene.add(this.#ground, this.#lattice);
+    this.#cells = new Changing(this.#scene, THREE.LineSegments, new THREE.LineBasicMaterial({ transparent: true, opacity: 0.3 }));
+    this.#tiles = new Changing(this.#scene, THREE.LineSegments, new THREE.LineBasicMaterial({ color: 0x2e9e52 }));
     this.#windows = new Changing(this.#scene, THREE.LineSegments, new THREE.LineBasicMaterial({ color: 0xd9803f }));
-    this.#arrows = new Changing(this.#scene, THREE.LineSegments, new THREE.LineBasicMaterial({ color: 0xd0021b, depthTest: false, transparent: true }));
-    this.#dots = new Changing(this.#scene, THREE.Points, new THREE.PointsMaterial({ color: 0xd0021b, size: 5, sizeAttenuation: false, depthTest: false, transparent: true }));
+    this.#arrows = new Changing(this.#scene, THREE.LineSegments, new THREE.LineBasicMaterial({ color: CONTACT, depthTest: false, transparent: true }));
+    this.#dots = new Changing(this.#scene, THREE.Points, new THREE.ShaderMaterial({
+      ...contactDots, transparent: true, depthTest: false, uniforms: { color: { value: new THREE.Color(CONTACT) }, scale: { value: renderer.getPixelRatio() } },
+    }));
     for (const changing of [this.#cells, this.#tiles, this.#windows, this.#arrows, this.#dots]) changing.hide();
     new ResizeObserver(() => this.#resize()).observe(canvas);
     this.#resize();
-    const dark = matchMedia("(prefers-color-scheme: dark)");
-    dark.addEventListener("change", () => this.#colour());
-    this.#colour();
   }
 
-  #colour() {
-    const style = getComputedStyle(document.documentElement);
-    const colour = (name) => new THREE.Color(style.getPropertyValue(name).trim());
-    this.#scene.background = colour("--sky");
-    this.#cells.object.material.color = colour("--text");
-    if (this.#floor) this.#scene.remove(this.#floor);
-    this.#floor = new THREE.GridHelper(24, 24, colour("--floor"), colour("--floor"));
-    this.#floor.rotation.x = 0.5 * Math.PI;
-    this.#scene.add(this.#floor);
+  /** "light" or "dark". */
+  setScheme(scheme) {
+    const { sky, air, ground, line } = COLOURS[scheme];
+    this.#scene.background = new THREE.Color(sky);
+    this.#scene.fog = new THREE.Fog(sky, 16, 42);
+    this.#air.color.set(air);
+    this.#air.groundColor.set(ground);
+    this.#air.intensity = scheme === "dark" ? 1.1 : 1.6;
+    this.#ground.material.color.set(ground);
+    this.#lattice.material.uniforms.color.value.set(line);
+    this.#cells.object.material.color.set(line);
     this.#needsDrawing = true;
   }
 
@@ -114,8 +177,17 @@ export class View {
     if (width === 0 || height === 0) return;
     this.#renderer.setSize(width, height, false);
     this.#camera.aspect = width / height;
+    this.#camera.fov = width < height * 1.1 ? 52 : 40; // so that the ring fits
     this.#camera.updateProjectionMatrix();
     this.#needsDrawing = true;
+  }
+
+  /** Draws less: no shadows, and no more pixels than the page has. */
+  simplify() {
+    this.#renderer.setPixelRatio(1);
+    this.#renderer.shadowMap.enabled = false;
+    this.#scene.traverse(({ material }) => material && (material.needsUpdate = true));
+    this.#resize();
   }
 
   /** Bodies as worker.js lists them. */
@@ -123,49 +195,49 @@ export class View {
     const kept = new Map(this.#bodies.map((shown) => [shown.body.serial, shown]));
     let first = 0;
     this.#bodies = bodies.map((body) => {
-      let shown = kept.get(body.serial);
+      const shown = kept.get(body.serial) ?? { body };
       kept.delete(body.serial);
-      if (!shown) {
-        const geometry = new THREE.BufferGeometry();
-        geometry.setIndex(new THREE.BufferAttribute(body.triangles, 1));
-        geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * body.vertexCount), 3).setUsage(THREE.DynamicDrawUsage));
-        const color = body.kind === FIXED ? 0x9aa3ab : PALETTE[body.serial % PALETTE.length];
-        const material = new THREE.MeshLambertMaterial({ color, flatShading: true, side: THREE.DoubleSide });
-        shown = { body, mesh: new THREE.Mesh(geometry, material) };
-        shown.mesh.frustumCulled = false;
-        this.#scene.add(shown.mesh);
-      }
       shown.first = first;
       first += 3 * body.vertexCount;
       return shown;
     });
-    for (const { mesh } of kept.values()) {
-      this.#scene.remove(mesh);
-      mesh.geometry.dispose();
-      mesh.material.dispose();
+    for (const { drawn } of kept.values()) {
+      if (!drawn) continue;
+      this.#scene.remove(drawn.object);
+      drawn.dispose();
     }
   }
 
-  setFrame({ positions, arrows, tiles, windows }, cellSize) {
+  #drawnBody(body, positions) {
+    const colour = new THREE.Color(body.kind === FIXED ? RING : PALETTE[body.origin % PALETTE.length]);
+    const drawn = new BodyMesh(body, positions, colour, colour.clone().lerp(new THREE.Color(0xfff1dd), 0.72));
+    this.#scene.add(drawn.object);
+    return drawn;
+  }
+
+  setFrame({ positions, contacts, tiles, windows }, { size, cells }) {
     this.#positions = positions;
-    for (const { mesh, first, body } of this.#bodies) {
-      const attribute = mesh.geometry.getAttribute("position");
-      attribute.array.set(positions.subarray(first, first + 3 * body.vertexCount));
-      attribute.needsUpdate = true;
-      mesh.geometry.boundingSphere = null;
+    for (const shown of this.#bodies) {
+      const own = positions.subarray(shown.first, shown.first + 3 * shown.body.vertexCount);
+      shown.drawn ??= this.#drawnBody(shown.body, own);
+      shown.drawn.move(own);
     }
-    if (arrows && arrows.length > 0) {
-      this.#dots.set(arrows.length / 2, (out) => {
-        for (let i = 0, n = 0; i < arrows.length; i += 6) for (let c = 0; c < 3; ++c) out[n++] = arrows[i + c];
-        return arrows.length / 6;
+    if (contacts && contacts.length > 0) {
+      const count = contacts.length / 6;
+      this.#dots.set(3 * count, (out, depths) => {
+        for (let i = 0; i < count; ++i) {
+          for (let c = 0; c < 3; ++c) out[3 * i + c] = contacts[6 * i + c];
+          depths[i] = Math.hypot(contacts[6 * i + 3], contacts[6 * i + 4], contacts[6 * i + 5]);
+        }
+        return count;
       });
-      this.#arrows.set(arrows.length, (out) => {
-        for (let i = 0; i < arrows.length; i += 6)
+      this.#arrows.set(6 * count, (out) => {
+        for (let i = 0; i < contacts.length; i += 6)
           for (let c = 0; c < 3; ++c) {
-            out[i + c] = arrows[i + c];
-            out[i + 3 + c] = arrows[i + c] + 2 * arrows[i + 3 + c]; // twice its length, to be seen
+            out[i + c] = contacts[i + c];
+            out[i + 3 + c] = contacts[i + c] + 2 * contacts[i + 3 + c]; // twice its length, to be seen
           }
-        return arrows.length / 3;
+        return 2 * count;
       });
     } else {
       this.#dots.hide();
@@ -175,8 +247,56 @@ export class View {
       if (boxes && boxes.length > 0) changing.set(12 * boxes.length, (out) => boxLines(boxes, out));
       else changing.hide();
     }
-    this.#drawCells(cellSize);
+    this.setCells(size, cells);
+    this.#follow();
     this.#needsDrawing = true;
+  }
+
+  /** The cells: on the ground always, and around the bodies if `all`. */
+  setCells(size, all) {
+    if (size) this.#lattice.material.uniforms.size.value = size;
+    this.#lattice.visible = Boolean(size);
+    this.#lattice.material.uniforms.strength.value = all ? 0.45 : 0.15;
+    this.#drawCells(all ? size : 0);
+    this.#needsDrawing = true;
+  }
+
+  /** Lights a body up for a second, and lets the camera go to it if `near`. */
+  show(origin, near) {
+    const before = this.#followed && this.#drawnOf(this.#followed.origin);
+    before?.mesh.material.emissive.setScalar(0);
+    this.#followed = { origin, near, begin: performance.now() };
+  }
+
+  /** Where the body that was shown is in the page: { x, y, name }, or null after some seconds. */
+  get label() {
+    const drawn = this.#followed && this.#drawnOf(this.#followed.origin);
+    if (!drawn) return null;
+    const at = drawn.ball.center.clone().setZ(drawn.ball.center.z + drawn.ball.radius).project(this.#camera);
+    const { clientWidth, clientHeight } = this.#canvas;
+    return { x: (0.5 + 0.5 * at.x) * clientWidth, y: (0.5 - 0.5 * at.y) * clientHeight, name: drawn.body.name };
+  }
+
+  #drawnOf(origin) {
+    return this.#bodies.find(({ body, drawn }) => drawn && body.origin === origin)?.drawn;
+  }
+
+  #follow() {
+    if (!this.#followed) return;
+    const { origin, near, begin } = this.#followed;
+    const age = (performance.now() - begin) / 1000;
+    const drawn = this.#drawnOf(origin);
+    drawn?.mesh.material.emissive.setScalar(0.35 * Math.max(0, 1 - age));
+    if (!drawn || age > 3) return void (this.#followed = null);
+    if (!near) return;
+    const part = matchMedia("(prefers-reduced-motion: reduce)").matches ? 1 : 0.08;
+    const { center, radius } = drawn.ball;
+    const { target } = this.#controls;
+    const offset = this.#camera.position.clone().sub(target);
+    target.lerp(center, part);
+    offset.setLength(offset.length() + part * (Math.max(7, 5 * radius) - offset.length()));
+    this.#camera.position.copy(target).add(offset);
+    this.#controls.update();
   }
 
   /** Cells that hold vertices; of many, those nearest to the middle. */
@@ -225,8 +345,9 @@ export class View {
   hits({ from, to }) {
     const way = new THREE.Vector3(...to).sub(new THREE.Vector3(...from)).normalize();
     const caster = new THREE.Raycaster(new THREE.Vector3(...from), way);
-    const [hit] = caster.intersectObjects(this.#bodies.map(({ mesh }) => mesh), false);
-    return Boolean(hit) && this.#bodies.find(({ mesh }) => mesh === hit.object).body.kind !== FIXED;
+    const drawn = this.#bodies.flatMap((shown) => shown.drawn ?? []);
+    const [hit] = caster.intersectObjects(drawn.map(({ mesh }) => mesh), false);
+    return Boolean(hit) && drawn.find(({ mesh }) => mesh === hit.object).body.kind !== FIXED;
   }
 
   /** The point of a ray that is as far from the camera, along its axis, as `point`. */

@@ -1,54 +1,51 @@
-// The simulation's thread: steps the scene sixty times a second, measures cell sizes in what time is left, and sends what is to be
-// drawn. The page never waits for it.
+// The simulation's thread: steps the scene sixty times a second, with the algorithm and the cell size that were chosen, and sends what is
+// to be drawn and how long a step took. The page never waits for it.
 import { predictedAt } from "./curve.js";
-import { ENGINE, FIXED, KINDS, Scene, SceneError, simdSupported } from "./scene.js";
+import { ENGINE, KINDS, Scene, SceneError, simdSupported } from "./scene.js";
 
 const FRAME_MS = 1000 / 60;
+const ROUNDS = 3; // of measuring all sizes
+const MORE_ROUNDS = 10; // of the fastest
 
 let scene;
 let bodies = [];
+let names = new Map(); // by the origin of bodies
 let paused = false;
 let shown = {};
-let chosen = { engine: ENGINE.paper, size: 0 };
-let curves = {}; // of each engine
-let curvesAt = -Infinity;
-let measureAfter = 0;
+let settings = { engine: ENGINE.paper, self: false, stiffness: 2e5 };
+let size = 0;
+let curve = null; // of the engine, for the bodies as they were at curveAt
+let curveAt = -Infinity;
+let curveSteps = -1;
 let recent = []; // milliseconds at the chosen size
-let changes = 0; // of the bodies
+let measureAfter = 0;
+let sweep = null; // { jobs, round, next } while all sizes are measured
 let nextTick = 0;
 
 const send = (type, what = {}, transfer = []) => postMessage({ type, ...what }, transfer);
 const log = (text, bad = false) => send("event", { text, bad });
 
-const nameOf = (body) => (body.kind === FIXED ? "the ring on the floor" : `${KINDS[body.kind]} ${body.serial}`);
+/** The mean of the middle half: no disturbance counts, and clocks that are coarser than a step do no harm. */
+function middle(values) {
+  const half = values.toSorted((a, b) => a - b).slice(values.length >> 2, values.length - (values.length >> 2));
+  return half.reduce((sum, value) => sum + value, 0) / half.length;
+}
 
 function sendBodies() {
   bodies = scene.bodies();
-  send("bodies", { bodies: bodies.map(({ positions, ...body }) => body) });
-  curvesAt = -Infinity;
+  send("bodies", { bodies: bodies.map(({ positions, ...body }) => ({ ...body, name: names.get(body.origin) })) });
+  curve = null;
   recent = [];
-  ++changes;
+  if (sweep) endSweep("Other bodies came. Measure again.");
 }
 
 function sendFrame() {
   const positions = scene.positions(bodies);
-  const arrows = shown.contacts ? scene.penetrations() : null;
+  const contacts = shown.contacts ? scene.penetrations() : null;
   const tiles = shown.tiles ? scene.tiles() : null;
   const windows = shown.windows ? scene.windows() : null;
-  const transfer = [positions, arrows, tiles, windows].filter(Boolean).map((array) => array.buffer);
-  send("frame", { positions, arrows, tiles, windows, facts: scene.facts(), hash: scene.hash() }, transfer);
-}
-
-const gone = new Map(); // names of bodies that events may still be about
-
-function stepOnce() {
-  scene.step();
-  const touches = scene.touches();
-  if (touches.length === 0) return;
-  const names = new Map(bodies.map((body) => [body.mesh, nameOf(body)]));
-  const name = (mesh) => names.get(mesh) ?? gone.get(mesh) ?? "a body that is gone";
-  for (let i = 0; i < touches.length; i += 3)
-    log(`${name(touches[i])} ${touches[i + 2] ? "touches" : "leaves"} ${name(touches[i + 1])}`);
+  const transfer = [positions, contacts, tiles, windows].filter(Boolean).map((array) => array.buffer);
+  send("frame", { positions, contacts, tiles, windows, facts: scene.facts(), hash: scene.hash() }, transfer);
 }
 
 /** What a failed act says. The scene is as it was before. */
@@ -63,115 +60,141 @@ function attempt(act) {
 }
 
 function changed(act) {
-  for (const body of bodies) gone.set(body.mesh, nameOf(body));
   const result = attempt(act);
   sendBodies();
   sendFrame();
   return result;
 }
 
+function dropped(act, name, frames) {
+  const text = attempt(act);
+  if (text !== undefined) {
+    const { origin } = scene.bodies().at(-1);
+    names.set(origin, name(origin));
+    send("came", { origin, frames });
+  }
+  sendBodies();
+  sendFrame();
+  return text;
+}
+
 // ---- the cell size ----
 
-const median = (values) => values.toSorted((a, b) => a - b)[values.length >> 1];
-
-const predict = (engine, size) => predictedAt(curves[engine], size);
-
-function suggestAll() {
-  for (const engine of Object.values(ENGINE)) curves[engine] = scene.suggest(engine);
-  curvesAt = performance.now();
-  send("curves", { curves });
+/** The curve of the bodies as they are, at most once a second. */
+function suggest() {
+  const { steps } = scene.facts();
+  if (curve && (performance.now() < curveAt + 1000 || steps === curveSteps)) return;
+  curve = scene.suggest(settings.engine);
+  curveAt = performance.now();
+  curveSteps = steps;
+  send("curve", { engine: settings.engine, curve });
 }
 
-/** One measurement, of some milliseconds: clocks of pages are coarse. */
-function measure(engine, size) {
-  const steps = Math.min(50, Math.max(1, Math.ceil(3 / predict(engine, size))));
-  return scene.measure(engine, size, steps);
+/** Some milliseconds long, as clocks of pages are coarse. */
+function measure(at) {
+  const steps = Math.min(50, Math.max(1, Math.ceil(3 / predictedAt(curve, at))));
+  return scene.measure(settings.engine, at, steps);
 }
 
-/** Measures the chosen size, for at most a quarter of the time. */
-function measureChosen() {
-  const now = performance.now();
-  if (now < measureAfter) return;
-  measureAfter = now + 5000; // if this fails
-  if (now - curvesAt > 1000) suggestAll();
-  if (!chosen.size) return void (measureAfter = now);
-  if (predict(chosen.engine, chosen.size) > 2000) return; // the bodies would stand still for seconds
-  const { ms, same } = measure(chosen.engine, chosen.size);
-  recent = [...recent, ms].slice(-9);
-  send("measured", { ...chosen, ms: median(recent), same });
-  measureAfter = performance.now() + 3 * (performance.now() - now);
+function tell(ms, same) {
+  recent = [...recent, ms].slice(-20);
+  const typical = middle(recent);
+  if (typical > 0) send("measured", { engine: settings.engine, size, ms: typical, same });
 }
 
-/** Times of many sizes with bodies that stand still, in rounds, so that a disturbance does not hit one size alone. */
-async function sweep() {
-  suggestAll();
-  const before = changes;
+/** While nothing moves: the time of a step of a grid of its own, for a quarter of the time. */
+function measureStanding() {
+  const begin = performance.now();
+  if (begin < measureAfter || predictedAt(curve, size) > 2000) return;
+  measureAfter = begin + 5000; // if this fails
+  const { ms, same } = measure(size);
+  tell(ms, same);
+  measureAfter = performance.now() + 3 * (performance.now() - begin);
+}
+
+function beginSweep() {
   const jobs = [];
-  for (const engine of Object.values(ENGINE)) {
-    const best = curves[engine].size;
-    for (let i = -8; i <= 8; ++i) {
-      const size = best * 2 ** (i / 3);
-      if (predict(engine, size) < Math.max(60, 40 * curves[engine].ms)) jobs.push({ engine, size, times: [] });
-    }
-  }
-  const rounds = 5;
-  for (let round = 0, done = 0; round < rounds; ++round) {
-    for (const job of jobs.toSorted((a, b) => ((a.size * 7919 + round * 0.37) % 1) - ((b.size * 7919 + round * 0.37) % 1))) {
-      const { ms, same } = measure(job.engine, job.size);
-      job.times.push(ms);
-      job.same = same && job.same !== false;
-      if (++done % 8 === 0) {
-        send("sweeping", { part: done / (rounds * jobs.length) });
-        await new Promise((go) => setTimeout(go)); // other acts first
-        if (changes !== before) throw new SceneError("other bodies came while all sizes were measured: measure again");
-      }
-    }
-  }
-  send("swept", { points: jobs.map(({ engine, size, times, same }) => ({ engine, size, ms: median(times), same })) });
+  for (let i = -8; i <= 8; ++i) jobs.push({ size: curve.size * 2 ** (i / 3), here: Infinity, best: Infinity });
+  sweep = { best: curve.size, jobs: jobs.filter((job) => predictedAt(curve, job.size) < Math.max(60, 40 * curve.ms)), round: 0, next: 0, after: 0 };
 }
 
-let sweeping = false;
+/** One size, right after the best, so that neither the pose nor a busy machine counts. A quarter of the time. */
+function measureNext() {
+  const begin = performance.now();
+  if (begin < sweep.after) return;
+  const { jobs } = sweep;
+  const job = jobs[(7 * sweep.next) % jobs.length]; // those next to each other at different times
+  const best = measure(sweep.best);
+  const here = job.size === sweep.best ? best : measure(job.size);
+  job.best = Math.min(job.best, best.ms);
+  job.here = Math.min(job.here, here.ms);
+  send("point", { size: job.size, factor: job.here / job.best, same: here.same && best.same, part: Math.min(1, (sweep.round * jobs.length + sweep.next + 1) / (ROUNDS * jobs.length)) });
+  if (++sweep.next === jobs.length) {
+    sweep.next = 0;
+    // The least of many noisy times is too good to be true, so it is measured anew.
+    if (++sweep.round === ROUNDS) sweep.jobs = [{ size: jobs.reduce((a, b) => (b.here / b.best < a.here / a.best ? b : a)).size, here: Infinity, best: Infinity }];
+    if (sweep.round === ROUNDS + MORE_ROUNDS) return endSweep();
+  }
+  sweep.after = performance.now() + 3 * (performance.now() - begin);
+}
+
+function endSweep(text) {
+  sweep = null;
+  if (text) send("refused", { text });
+  send("swept", { complete: !text });
+}
 
 // ---- the loop ----
 
 function tick() {
   const now = performance.now();
-  if (!sweeping) {
-    if (!paused) {
-      if (!attempt(() => (stepOnce(), true))) { // it would fail again
-        paused = true;
-        send("stopped");
-      }
-      sendFrame();
+  if (!paused) {
+    const { steps } = scene.facts();
+    if (!attempt(() => (scene.step(), true))) { // it would fail again
+      paused = true;
+      send("stopped");
     }
-    attempt(measureChosen);
+    sendFrame();
+    const facts = scene.facts();
+    if (facts.steps > steps && size && !sweep) tell(facts.gridNs / 1e6);
   }
+  attempt(() => {
+    suggest();
+    if (sweep) measureNext();
+    else if (size && (paused || scene.facts().asleep)) measureStanding();
+  });
   nextTick = Math.max(nextTick + FRAME_MS, now);
   setTimeout(tick, Math.max(0, nextTick - performance.now()));
 }
 
 const acts = {
-  async start({ memory, paused: stands, simd = simdSupported() }) {
+  async start({ memory, paused: stands, settings: first, simd = simdSupported() }) {
     paused = stands;
     scene = await Scene.load(new URL(simd ? "playground_simd.wasm" : "playground.wasm", self.location.href), memory);
+    settings = first;
+    scene.configure(settings);
+    names.set(scene.bodies()[0].origin, "the ring on the floor");
     sendBodies();
     send("ready", { version: scene.version, simd });
     sendFrame();
     nextTick = performance.now();
-    tick();
+    setTimeout(tick); // after the first bodies
   },
   drop({ kind, tets }) {
-    changed(() => scene.drop(kind, tets));
+    dropped(() => scene.drop(kind, tets), (origin) => `${KINDS[kind]} ${origin}`, false);
   },
-  file({ name, bytes, tets }) {
-    const text = changed(() => scene.dropFile(name, bytes, tets));
+  file({ name, bytes, tets, yUp, format }) {
+    const text = dropped(() => scene.dropFile(format ? `${name}.${format}` : name, bytes, tets, yUp), () => name, true);
     if (text !== undefined) log(text === "" ? `${name} is read` : `${name}: ${text}`);
+  },
+  nothing({ id }) {
+    send("reply", { id });
   },
   clear() {
     changed(() => scene.clear());
   },
-  self({ on }) {
-    changed(() => scene.setSelfCollision(on));
+  configure(what) {
+    if (changed(() => (scene.configure(what), true))) settings = what;
   },
   pause({ on }) {
     paused = on;
@@ -180,9 +203,10 @@ const acts = {
     shown = what;
     sendFrame();
   },
-  choose({ engine, size }) {
-    if (engine !== chosen.engine || size !== chosen.size) recent = [];
-    chosen = { engine, size };
+  choose({ size: chosen }) {
+    if (chosen !== size) recent = [];
+    size = chosen;
+    scene.setCellSize(size);
     measureAfter = 0;
   },
   grab({ from, to, id }) {
@@ -207,24 +231,14 @@ const acts = {
   restore({ name, bytes }) {
     if (changed(() => (scene.restore(bytes), true))) log(`${name} is shown; its bodies rest in the shape that they have there`);
   },
-  async sweep() {
-    if (sweeping) return;
-    sweeping = true;
-    try {
-      await sweep();
-    } catch (error) {
-      if (!(error instanceof SceneError)) throw error;
-      send("refused", { text: error.message });
-      send("swept", { points: [] });
-    } finally {
-      sweeping = false;
-    }
+  sweep() {
+    attempt(() => (suggest(), beginSweep()));
   },
   /** Exactly so many steps, as fast as they go. */
   run({ steps, id }) {
     let stepNs = 0;
     for (let i = 0; i < steps; ++i) {
-      stepOnce();
+      scene.step();
       stepNs += scene.facts().stepNs;
     }
     sendFrame();

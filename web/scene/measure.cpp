@@ -50,11 +50,15 @@ std::uint64_t stepped(playground& play, vox_grid* grid, double cell_size, std::u
 
 } // namespace
 
+void play::check_engine(std::uint32_t engine) {
+    if (engine != VOX_COST_MODEL_REFERENCE && engine != VOX_COST_MODEL_FAST)
+        fail(VOX_ERROR_INVALID_ARGUMENT, "there is no engine " + std::to_string(engine));
+}
+
 vox_result play_measure(playground* play, uint32_t engine, double cell_size, uint32_t steps, double* out_ns,
                         uint32_t* out_same) {
     return guard([&] {
-        if (engine != VOX_COST_MODEL_REFERENCE && engine != VOX_COST_MODEL_FAST)
-            fail(VOX_ERROR_INVALID_ARGUMENT, "there is no engine " + std::to_string(engine));
+        check_engine(engine);
         if (play->default_hash_of != play->version) {
             double unused;
             play->default_hash = stepped(*play, grid_with(*play, VOX_COST_MODEL_FAST), 0, 1, unused);
@@ -71,7 +75,8 @@ const double* play_suggest_numbers(playground* play, uint32_t model) {
         vox_cell_size_desc desc = vox_default_cell_size_desc();
         desc.model = static_cast<vox_cost_model>(model);
         desc.weights = &play->weights;
-        vox_grid* grid = grid_with(*play, model == VOX_COST_MODEL_FAST ? model : VOX_COST_MODEL_REFERENCE);
+        check_engine(model);
+        vox_grid* grid = grid_with(*play, model);
         s.struct_size = sizeof s;
         check(vox_grid_suggest_cell_size(grid, &desc, &s));
     });

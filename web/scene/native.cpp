@@ -1,13 +1,14 @@
 // The scene without a page. Runs commands from its input, one a line, as the page's tests run them in the
 // browser, and prints what they compare:
 //     drop KIND TETS
-//     file PATH TETS
+//     file PATH TETS Y_UP
 //     steps N
 //     grab FROM TO, three numbers each
 //     drag POINT
 //     let-go
 //     cut EYE FIRST SECOND
-//     self 0 or 1
+//     configure ENGINE SELF STIFFNESS
+//     size CELL_SIZE
 //     save PATH
 //     load PATH
 #include "playground.h"
@@ -52,7 +53,7 @@ int main() {
             result = play_drop(play, whole(0), whole(1));
         } else if (command == "file") {
             const std::vector<char> bytes = bytes_of(path);
-            result = play_drop_file(play, path.c_str(), bytes.data(), bytes.size(), whole(0));
+            result = play_drop_file(play, path.c_str(), bytes.data(), bytes.size(), whole(0), whole(1));
         } else if (command == "steps") {
             double step_ns = 0, detect_ns = 0, contacts = 0, deepest = 0;
             for (std::uint32_t i = 0; i < whole(0) && result == VOX_OK; ++i) {
@@ -81,8 +82,10 @@ int main() {
             std::uint32_t count = 0;
             result = play_cut(play, n.data(), n.data() + 3, n.data() + 6, &count);
             std::printf("cut %u, %u bodies\n", count, play_body_count(play));
-        } else if (command == "self") {
-            result = play_set_self_collision(play, whole(0));
+        } else if (command == "configure") {
+            result = play_configure(play, whole(0), whole(1), n[2]);
+        } else if (command == "size") {
+            result = play_set_cell_size(play, n[0]);
         } else if (command == "save") {
             const void* bytes = nullptr;
             std::uint64_t size = 0, hash = 0;

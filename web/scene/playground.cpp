@@ -9,6 +9,7 @@
 #include <cstring>
 #include <limits>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 namespace play {
@@ -19,7 +20,7 @@ namespace {
 
 constexpr double time_step = 1.0 / 60;
 constexpr double still_speed = 0.04; // root mean square over all particles, for a second, before bodies sleep
-constexpr double ring_radius = 3.4, ring_tube = 0.7;
+constexpr double ring_radius = 3.4, ring_tube = 0.6;
 constexpr double gap = 0.3; // between a body that is dropped and the highest one
 
 void* allocate(std::size_t size, std::size_t alignment, void* user) {
@@ -52,8 +53,12 @@ vox_io_mesh_view arrays_of(const Mesh& mesh) {
     return view;
 }
 
-Sim make_sim(Account& account) {
+Sim make_sim(Account& account, std::uint32_t engine) {
     vox_sim_desc desc = vox_default_sim_desc();
+    const vox_reference_desc reference = vox_default_reference_desc();
+    vox_grid_desc grid = vox_default_grid_desc();
+    if (engine == VOX_COST_MODEL_REFERENCE) grid.reference = &reference;
+    desc.grid = &grid;
     desc.substeps = 5;
     desc.detect_every = desc.substeps; // once a frame, as a game would
     const vox_allocator allocator{allocate, release, &account};
@@ -83,56 +88,14 @@ Rotation rotation(std::uint32_t number) {
              {s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y)}}};
 }
 
-struct Shape {
-    std::span<const double> positions, rest, velocities; // the last two may be empty
-    std::span<const std::uint32_t> tets;
-    std::uint32_t kind;
-};
-
-// The body is in the simulation when this returns, and not yet in the list.
-Body insert(playground& play, const Shape& shape) {
-    Body body;
-    body.kind = shape.kind;
-    body.serial = play.next_serial;
-    const std::span<const double> rest = shape.rest.empty() ? shape.positions : shape.rest;
-    body.rest.assign(rest.begin(), rest.end());
-    body.tets.assign(shape.tets.begin(), shape.tets.end());
-    body.triangles = surface_of(body.tets, body.rest);
-    vox_sim_body_desc desc = vox_default_sim_body_desc();
-    desc.flags =
-        (shape.kind == PLAY_FIXED ? std::uint32_t{VOX_SIM_BODY_FIXED} : 0u) |
-        (play.self_collision && shape.kind != PLAY_FIXED ? std::uint32_t{VOX_SIM_BODY_SELF_COLLISION} : 0u);
-    desc.positions = shape.positions.data();
-    desc.rest_positions = body.rest.data();
-    desc.velocities = shape.velocities.empty() ? nullptr : shape.velocities.data();
-    desc.vertex_count = shape.positions.size() / 3;
-    desc.tets = body.tets.data();
-    desc.tet_count = body.tets.size() / 4;
-    desc.youngs_modulus = 2e5;
-    desc.bulk_modulus = 2e5;
-    desc.damping = 0.05;
-    desc.user_data = body.serial;
-    check(vox_sim_body_insert(play.sim.get(), &desc, &body.mesh));
-    check(vox_sim_body_get_view(play.sim.get(), body.mesh, &body.view));
-    ++play.next_serial;
-    return body;
-}
-
-void remove(playground& play, const Body& body) {
-    (void)vox_sim_body_remove(play.sim.get(), body.mesh);
-    if (body.mesh == play.held_mesh) play_let_go(&play);
-}
-
 void make_ring(playground& play) {
     vox_io_mesh* made = nullptr;
-    check(vox_io_make_torus(ring_radius, ring_tube, 0.5, &made));
+    check(vox_io_make_torus(ring_radius, ring_tube, 0.45, &made));
     const Mesh mesh(made);
     const vox_io_mesh_view view = arrays_of(mesh);
-    play.bodies.push_back(insert(play, {list(view.positions, 3 * view.vertex_count),
-                                        {},
-                                        {},
-                                        list(view.tets, 4 * view.tet_count),
-                                        PLAY_FIXED}));
+    std::vector<double> positions(view.positions, view.positions + 3 * view.vertex_count);
+    for (std::size_t z = 2; z < positions.size(); z += 3) positions[z] += ring_tube; // it lies on the floor
+    play.bodies.push_back(insert(play, {positions, {}, {}, list(view.tets, 4 * view.tet_count), PLAY_FIXED}));
 }
 
 auto find_body(const playground& play, vox_body mesh) {
@@ -163,12 +126,14 @@ Ends ends_of(const vox_io_mesh_view& view) {
     return ends;
 }
 
+constexpr Rotation upright[2] = {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}}};
+
 // Inserts a mesh turned, scaled to `size` along its longest side (0: as it is), above all others.
-void drop(playground& play, const vox_io_mesh_view& view, std::uint32_t kind, double size) {
+void drop(playground& play, const vox_io_mesh_view& view, std::uint32_t kind, double size,
+          const Rotation& turn) {
     const auto [low, high] = ends_of(view);
     const Vec side = high - low, middle = 0.5 * (low + high);
     const double scale = size > 0 ? size / std::max({side[0], side[1], side[2]}) : 1;
-    const Rotation turn = rotation(++play.dropped);
     std::vector<double> positions(3 * view.vertex_count);
     double lowest = 0;
     for (std::uint32_t v = 0; v < view.vertex_count; ++v) {
@@ -177,7 +142,8 @@ void drop(playground& play, const vox_io_mesh_view& view, std::uint32_t kind, do
         lowest = std::min(lowest, p[2]);
     }
     // One after the other around the middle of the ring.
-    constexpr double place[5][2] = {{0, 0}, {0.9, 0.3}, {-0.7, 0.8}, {0.2, -1}, {-0.9, -0.5}};
+    ++play.dropped;
+    constexpr double place[5][2] = {{0, 0}, {1.5, 0.5}, {-1.2, 1.3}, {0.3, -1.6}, {-1.5, -0.8}};
     const Vec to = {place[play.dropped % 5][0], place[play.dropped % 5][1], highest(play) + gap - lowest};
     for (std::size_t i = 0; i < positions.size(); ++i) positions[i] += to[i % 3];
     try {
@@ -218,15 +184,6 @@ std::span<const vox_constraint> constraints_of(const playground& play) {
     vox_constraint_view view{};
     if (vox_grid_get_constraints(play.grid, &view) != VOX_OK) return {};
     return list(view.data, view.count);
-}
-
-void list_touches(playground& play) {
-    vox_pair_view view;
-    check(vox_grid_get_pairs(play.grid, &view));
-    for (const vox_pair& pair : list(view.data, view.count))
-        if (pair.state == VOX_PAIR_BEGAN || pair.state == VOX_PAIR_ENDED)
-            play.touches.insert(play.touches.end(),
-                                {pair.body_a, pair.body_b, pair.state == VOX_PAIR_BEGAN ? 1u : 0u});
 }
 
 // Inserts the meshes of a grid; the first is the fixed ring if it has its tetrahedra, else a ring comes
@@ -270,6 +227,25 @@ void read_bodies(playground& play, const vox_grid* loaded, const Body& ring) {
     if (play.bodies.empty()) fail(VOX_ERROR_FORMAT, "the snapshot has no mesh with tetrahedra");
 }
 
+// Fills a new simulation, which gives meshes the ids of a new scene. If that fails, the old one is there.
+template <class Fill>
+void replace(playground& play, const Fill& fill) {
+    Sim old_sim = std::exchange(play.sim, make_sim(play.account, play.engine));
+    std::vector<Body> old_bodies = std::exchange(play.bodies, {});
+    try {
+        fill(old_bodies);
+        check(vox_sim_get_grid(play.sim.get(), &play.grid));
+        check(vox_grid_set_cell_size(play.grid, play.cell_size));
+    } catch (...) {
+        play.bodies = std::move(old_bodies);
+        play.sim = std::move(old_sim);
+        throw;
+    }
+    play_let_go(&play);
+    play.touching_parts.clear();
+    play.bodies_changed();
+}
+
 // Whether there is a surface between two points, and the first that is.
 bool find_first_hit(const playground& play, const double from[3], const double to[3], vox_ray_hit& hit) {
     vox_locator* taken = nullptr;
@@ -295,7 +271,7 @@ vox_result play_create(uint64_t byte_limit, playground** out) {
         play->account.limit = byte_limit;
         play->weights.struct_size = sizeof play->weights;
         check(vox_cost_calibrate(&play->weights));
-        play->sim = make_sim(play->account);
+        play->sim = make_sim(play->account, play->engine);
         check(vox_sim_get_grid(play->sim.get(), &play->grid));
         make_ring(*play);
         *out = play.release();
@@ -333,12 +309,12 @@ vox_result play_drop(playground* play, uint32_t kind, uint32_t tets) {
             break;
         }
         const Mesh mesh(made);
-        drop(*play, arrays_of(mesh), kind, 0);
+        drop(*play, arrays_of(mesh), kind, 0, rotation(play->dropped + 1));
     });
 }
 
-vox_result play_drop_file(playground* play, const char* name, const void* bytes, uint64_t size,
-                          uint32_t tets) {
+vox_result play_drop_file(playground* play, const char* name, const void* bytes, uint64_t size, uint32_t tets,
+                          uint32_t y_up) {
     return guard([&] {
         const vox_io_source source = {name, bytes, static_cast<std::size_t>(size)};
         vox_io_mesh* read = nullptr;
@@ -363,7 +339,7 @@ vox_result play_drop_file(playground* play, const char* name, const void* bytes,
             if (!text.empty()) text += '\n';
             text.append("filled with ").append(std::to_string(view.tet_count)).append(" tetrahedra");
         }
-        drop(*play, view, PLAY_FILE, 1.8);
+        drop(*play, view, PLAY_FILE, 2.4, upright[y_up ? 1 : 0]);
         play->text = std::move(text);
     });
 }
@@ -381,30 +357,49 @@ vox_result play_clear(playground* play) {
     });
 }
 
-vox_result play_set_self_collision(playground* play, uint32_t on) {
+vox_result play_configure(playground* play, uint32_t engine, uint32_t self_collision, double stiffness) {
     return guard([&] {
-        const bool before = play->self_collision;
-        play->self_collision = on != 0;
-        std::vector<Body> made;
-        try { // inserted again, as a simulation's body keeps its flags
-            for (const Body& body : play->bodies)
-                made.push_back(insert(
-                    *play, {list(body.view.positions, 3 * body.view.vertex_count), body.rest,
-                            list(body.view.velocities, 3 * body.view.vertex_count), body.tets, body.kind}));
+        check_engine(engine);
+        if (!(stiffness >= 1e3 && stiffness <= 1e8))
+            fail(VOX_ERROR_INVALID_ARGUMENT,
+                 "a stiffness of " + std::to_string(stiffness) + "; expected 1e3 to 1e8");
+        const std::tuple old_settings(play->engine, play->self_collision, play->stiffness);
+        const std::uint32_t next_serial = play->next_serial;
+        play->engine = engine;
+        play->self_collision = self_collision != 0;
+        play->stiffness = stiffness;
+        // A simulation keeps its engine, and its bodies their material and flags.
+        try {
+            replace(*play, [&](const std::vector<Body>& old_bodies) {
+                for (const Body& body : old_bodies) {
+                    play->next_serial = body.serial;
+                    Body made =
+                        insert(*play, {list(body.view.positions, 3 * body.view.vertex_count), body.rest,
+                                       list(body.view.velocities, 3 * body.view.vertex_count), body.tets,
+                                       body.kind, body.origin});
+                    made.triangles = body.triangles;
+                    made.uncut = body.uncut;
+                    play->bodies.push_back(std::move(made));
+                }
+                play->next_serial = next_serial;
+            });
         } catch (...) {
-            for (const Body& body : made) remove(*play, body);
-            play->self_collision = before;
+            play->next_serial = next_serial;
+            std::tie(play->engine, play->self_collision, play->stiffness) = old_settings;
             throw;
         }
-        for (const Body& body : play->bodies) remove(*play, body);
-        play->bodies = std::move(made);
-        play->bodies_changed();
+    });
+}
+
+vox_result play_set_cell_size(playground* play, double cell_size) {
+    return guard([&] {
+        check(vox_grid_set_cell_size(play->grid, cell_size));
+        play->cell_size = cell_size;
     });
 }
 
 vox_result play_step(playground* play) {
     return guard([&] {
-        play->touches.clear();
         if (play->asleep()) return;
         pull(*play);
         check(vox_sim_step(play->sim.get(), time_step));
@@ -413,7 +408,7 @@ vox_result play_step(playground* play) {
         check(vox_grid_get_hash(play->grid, &hash));
         play->hash = (play->hash ^ hash) * 0x100000001b3u + 1;
         ++play->steps;
-        list_touches(*play);
+        part(*play);
         vox_sim_energy energy;
         check(vox_sim_get_energy(play->sim.get(), VOX_NULL_BODY, &energy));
         play->facts.max_speed = energy.max_speed;
@@ -464,51 +459,6 @@ void play_let_go(playground* play) {
     play->held.clear();
 }
 
-vox_result play_cut(playground* play, const double eye[3], const double first[3], const double second[3],
-                    uint32_t* out_cut) {
-    return guard([&] {
-        *out_cut = 0;
-        const Stroke stroke({eye[0], eye[1], eye[2]}, {first[0], first[1], first[2]},
-                            {second[0], second[1], second[2]});
-        std::vector<Body> made;
-        std::vector<vox_body> gone;
-        try {
-            for (const Body& body : play->bodies) {
-                if (body.kind == PLAY_FIXED) continue;
-                const std::span positions = list(body.view.positions, 3 * body.view.vertex_count);
-                const std::vector<Part> parts = cut(body.tets, positions, stroke);
-                if (parts.empty()) continue;
-                gone.push_back(body.mesh);
-                for (const Part& part : parts) {
-                    std::vector<double> now, rest, velocities;
-                    for (const std::uint32_t v : part.old_vertex)
-                        for (std::size_t c = 0; c < 3; ++c) {
-                            now.push_back(body.view.positions[3 * v + c]);
-                            rest.push_back(body.rest[3 * v + c]);
-                            velocities.push_back(body.view.velocities[3 * v + c]);
-                        }
-                    made.push_back(insert(*play, {now, rest, velocities, part.tets, body.kind}));
-                }
-            }
-        } catch (...) {
-            for (const Body& body : made) remove(*play, body);
-            throw;
-        }
-        if (gone.empty()) return;
-        std::vector<Body> kept;
-        for (Body& body : play->bodies) {
-            if (std::find(gone.begin(), gone.end(), body.mesh) != gone.end())
-                remove(*play, body);
-            else
-                kept.push_back(std::move(body));
-        }
-        kept.insert(kept.end(), std::make_move_iterator(made.begin()), std::make_move_iterator(made.end()));
-        play->bodies = std::move(kept);
-        play->bodies_changed();
-        *out_cut = static_cast<std::uint32_t>(gone.size());
-    });
-}
-
 uint32_t play_body_count(const playground* play) { return static_cast<std::uint32_t>(play->bodies.size()); }
 
 const play_body* play_get_body(const playground* play, uint32_t index) {
@@ -517,9 +467,10 @@ const play_body* play_get_body(const playground* play, uint32_t index) {
                    body.triangles.data(),
                    static_cast<std::uint32_t>(body.view.vertex_count),
                    static_cast<std::uint32_t>(body.triangles.size() / 3),
+                   static_cast<std::uint32_t>(body.uncut / 3),
                    body.serial,
-                   body.kind,
-                   body.mesh};
+                   body.origin,
+                   body.kind};
     return &play->shown;
 }
 
@@ -534,11 +485,6 @@ const float* play_penetrations(playground* play, uint32_t* out_count) {
     }
     *out_count = static_cast<std::uint32_t>(play->arrows.size() / 6);
     return play->arrows.data();
-}
-
-const uint32_t* play_touches(playground* play, uint32_t* out_count) {
-    *out_count = static_cast<std::uint32_t>(play->touches.size() / 3);
-    return play->touches.data();
 }
 
 const play_facts* play_get_facts(playground* play) {
@@ -561,7 +507,11 @@ const play_facts* play_get_facts(playground* play) {
     for (const vox_constraint& c : constraints_of(*play)) facts.deepest = std::max(facts.deepest, -c.gap);
     vox_grid_info info{};
     info.struct_size = sizeof info;
-    if (vox_grid_get_info(play->grid, &info) == VOX_OK) facts.cell_size = info.cell_size;
+    if (vox_grid_get_info(play->grid, &info) == VOX_OK) {
+        facts.cell_size = info.cell_size;
+        facts.grid_ns = static_cast<double>(info.step_ns);
+        facts.pairs = static_cast<double>(info.total_began - info.total_ended);
+    }
     facts.steps = static_cast<double>(play->steps);
     facts.asleep = play->asleep() ? 1 : 0;
     facts.bytes = static_cast<double>(play->account.bytes);
@@ -596,20 +546,8 @@ vox_result play_load(playground* play, const void* bytes, uint64_t size) {
         vox_grid* loaded = nullptr;
         check(vox_grid_load(bytes, size, &desc, &loaded));
         const Grid grid(loaded);
-        // In a simulation of its own, so that the meshes have the ids of a new scene, and the old one is
-        // there if this fails.
-        Sim old_sim = std::exchange(play->sim, make_sim(play->account));
-        std::vector<Body> old_bodies = std::exchange(play->bodies, {});
-        try {
-            read_bodies(*play, loaded, old_bodies.front());
-            check(vox_sim_get_grid(play->sim.get(), &play->grid));
-        } catch (...) {
-            play->bodies = std::move(old_bodies);
-            play->sim = std::move(old_sim);
-            throw;
-        }
-        play_let_go(play);
+        replace(*play,
+                [&](const std::vector<Body>& old_bodies) { read_bodies(*play, loaded, old_bodies.front()); });
         play->hash = play->steps = 0;
-        play->bodies_changed();
     });
 }

@@ -33,15 +33,19 @@ void play_destroy(playground* play);
 
 /* Drops a body of about `tets` tetrahedra (100 to 200000) above all others. */
 vox_result play_drop(playground* play, uint32_t kind, uint32_t tets);
-/* The same for a file. A surface is filled with about `tets` tetrahedra. play_text() says what was odd about
- * it. */
-vox_result play_drop_file(playground* play, const char* name, const void* bytes, uint64_t size,
-                          uint32_t tets);
+/* The same for a file, which stands upright: along its y axis if `y_up` is 1, along its z axis if it is 0. A
+ * surface is filled with about `tets` tetrahedra. play_text() says what was odd about it. */
+vox_result play_drop_file(playground* play, const char* name, const void* bytes, uint64_t size, uint32_t tets,
+                          uint32_t y_up);
 const char* play_text(const playground* play);
 /* Removes all bodies but the fixed ring. */
 vox_result play_clear(playground* play);
-/* Whether bodies collide with themselves: those that are there and those to come. */
-vox_result play_set_self_collision(playground* play, uint32_t on);
+/* Of all bodies, now and later: the engine that finds their contacts (the vox_cost_model that predicts it),
+ * whether they collide with themselves (0 or 1), and their Young's modulus. At first the fast engine, 0 and
+ * 2e5. */
+vox_result play_configure(playground* play, uint32_t engine, uint32_t self_collision, double stiffness);
+/* The cell size of the scene's grid; 0, as at first: the grid chooses. */
+vox_result play_set_cell_size(playground* play, double cell_size);
 
 /* Moves everything by 1/60 s, unless all bodies have come to rest: then they sleep until something is done to
  * them. */
@@ -55,20 +59,21 @@ vox_result play_grab(playground* play, const double from[3], const double to[3],
 void play_drag(playground* play, const double point[3]);
 void play_let_go(playground* play);
 /* Cuts every body that crosses the triangle (eye, first, second), extended without end beyond first and
- * second, between its tetrahedra. Parts that come apart are bodies of their own. *out_cut: how many bodies
- * were cut. */
+ * second, between its tetrahedra. Parts that come apart are bodies of their own, with a gap between them; two
+ * that still touch are no pair until they are apart. *out_cut: how many bodies were cut. */
 vox_result play_cut(playground* play, const double eye[3], const double first[3], const double second[3],
                     uint32_t* out_cut);
 
-/* What there is to draw of a body. `serial` is another for each body and for each part of one. */
+/* What there is to draw of a body. `serial` is another for each body and for each part of one; parts have the
+ * `origin` of what they were cut from, the serial of a body that was dropped. */
 typedef struct play_body {
     const float* positions;    /* 3 * vertex_count */
-    const uint32_t* triangles; /* of the surface; 3 * triangle_count */
+    const uint32_t* triangles; /* of the surface; 3 * triangle_count. Cut faces come last */
     uint32_t vertex_count;
     uint32_t triangle_count;
-    uint32_t serial;
+    uint32_t uncut_count; /* of the triangles */
+    uint32_t serial, origin;
     uint32_t kind;
-    uint32_t mesh; /* its id in the grid, as pairs name it */
 } play_body;
 uint32_t play_body_count(const playground* play);
 const play_body* play_get_body(const playground* play, uint32_t index);
@@ -76,20 +81,19 @@ const play_body* play_get_body(const playground* play, uint32_t index);
 /* Six floats for each vertex in a body: the vertex, and the way out as a vector. */
 const float* play_penetrations(playground* play, uint32_t* out_count);
 
-/* Pairs that began or ended to touch in the last step: mesh, mesh, and 1 if they touch now. */
-const uint32_t* play_touches(playground* play, uint32_t* out_count);
-
 /* Boxes, six floats each (min, max): of tiles (what 0), and of windows of the last step (what 1). */
 const float* play_boxes(playground* play, uint32_t what, uint32_t* out_count);
 
 typedef struct play_facts {
     double tets, contacts, deepest;
-    double step_ns, detect_ns; /* of the last step that was not slept through */
-    double cell_size;          /* that the grid chose */
+    double step_ns, detect_ns, grid_ns; /* of the last step that was not slept through: all, what finds
+                                           contacts and depths, and contacts alone */
+    double cell_size;
     double max_speed;
     double steps;
     double asleep; /* 1: all bodies are */
     double bytes, byte_limit;
+    double pairs; /* of bodies that touch */
 } play_facts;
 const play_facts* play_get_facts(playground* play);
 /* Combines vox_grid_get_hash of all steps since the scene was made or loaded. */

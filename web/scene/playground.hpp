@@ -46,15 +46,28 @@ using Sim = std::unique_ptr<vox_sim, DestroySim>;
 
 struct Body {
     vox_body mesh;
-    std::uint32_t kind, serial;
+    std::uint32_t kind, serial, origin;
     std::vector<double> rest;
-    std::vector<std::uint32_t> tets, triangles;
+    std::vector<std::uint32_t> tets, triangles; // cut faces come last
+    std::size_t uncut;                          // indices of `triangles` before them
     vox_sim_body_view view;
 };
 
 // Memory of the simulation and its grid, counted.
 struct Account {
     std::uint64_t bytes = 0, limit = 0;
+};
+
+// What insert() is given.
+struct Shape {
+    std::span<const double> positions, rest, velocities; // the last two may be empty
+    std::span<const std::uint32_t> tets;
+    std::uint32_t kind, origin = 0; // 0: it has none
+};
+
+// Parts of one cut that still touch, so that they are no pair.
+struct Parts {
+    vox_body a, b;
 };
 
 struct Held {
@@ -70,7 +83,10 @@ struct playground {
     vox_grid* grid = nullptr; // the simulation's
     std::vector<play::Body> bodies;
     std::uint32_t next_serial = 1, dropped = 0;
+    std::uint32_t engine = VOX_COST_MODEL_FAST;
     bool self_collision = false;
+    double stiffness = 2e5, cell_size = 0;
+    std::vector<play::Parts> touching_parts;
     std::uint64_t hash = 0, steps = 0;
     std::uint32_t still_steps = 0;
     vox_body held_mesh = VOX_NULL_BODY;
@@ -88,7 +104,6 @@ struct playground {
     vox_cell_size_result suggestion;
     double suggestion_numbers[7 + 2 * (VOX_CURVE_CAPACITY + VOX_TERM_CAPACITY + VOX_RULE_CAPACITY)];
     std::vector<float> arrows, boxes;
-    std::vector<std::uint32_t> touches;
     std::vector<unsigned char> snapshot;
     mutable play_body shown;
     play_facts facts{};
@@ -100,3 +115,14 @@ struct playground {
     }
     bool asleep() const { return still_steps >= 60; }
 };
+
+namespace play {
+
+// The body is in the simulation when this returns, and not yet in the list.
+Body insert(playground& play, const Shape& shape);
+void remove(playground& play, const Body& body);
+// Makes parts of a cut a pair again once they are apart.
+void part(playground& play);
+void check_engine(std::uint32_t engine);
+
+} // namespace play

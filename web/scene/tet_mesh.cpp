@@ -1,6 +1,7 @@
 #include "tet_mesh.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <tuple>
 
@@ -79,6 +80,7 @@ std::vector<std::uint32_t> surface_of(std::span<const std::uint32_t> tets, std::
 Stroke::Stroke(const Vec& eye, const Vec& first, const Vec& second) : eye_(eye) {
     const Vec a = first - eye, b = second - eye;
     normal_ = cross(a, b);
+    normal_ = (1 / std::sqrt(dot(normal_, normal_))) * normal_;
     from_first_ = cross(normal_, a);
     from_second_ = cross(b, normal_);
 }

@@ -33,6 +33,7 @@ std::vector<std::uint32_t> surface_of(std::span<const std::uint32_t> tets, std::
 class Stroke {
 public:
     Stroke(const Vec& eye, const Vec& first, const Vec& second);
+    const Vec& normal() const { return normal_; } // of length 1
     bool above(const Vec& point) const { return dot(normal_, point - eye_) > 0; }
     bool between_rays(const Vec& point) const {
         return dot(from_first_, point - eye_) >= 0 && dot(from_second_, point - eye_) >= 0;

@@ -19,7 +19,7 @@ test("200 frames have the native hash without SIMD, too", async () => {
 });
 
 test("self-collision, a cut and a drag have the native hash, too", async () => {
-  const [a, b, c, d] = hashesOf(native([...scene, "self 1", "cut -20 0.1 1.2  20 8 0  20 -8 0", "steps 60",
+  const [a, b, c, d] = hashesOf(native([...scene, "configure 1 1 2e5", "cut -20 0.1 1.2  20 8 0  20 -8 0", "steps 60",
     "grab 0 0 9  0 0 0", "drag 0.5 0.5 4", "steps 30", "let-go", "steps 30"]));
   await visit("?scene=empty&stopped", async (page) => {
     await dropAll(page, 1000);
@@ -78,16 +78,24 @@ test("a stroke cuts, and so does the button", async () => {
     await run(page, 150);
     const bodies = () => page.evaluate(() => playground.bodies);
     assert.equal(await bodies(), 2); // and the ring
+    const before = await facts(page);
     const { x, y } = await overABody(page);
     await page.check('input[value="cut"]');
     await page.mouse.move(x - 300, y + 15);
     await page.mouse.down();
     await page.mouse.move(x + 300, y + 15, { steps: 3 });
+    assert.equal(await page.getAttribute("#stroke", "class"), "drawn");
+    assert.ok(await page.evaluate(() => document.querySelector("#stroke line").x2.baseVal.value > 300));
     await page.mouse.up();
     await logged(page, "1 body cut");
     const parts = await bodies();
     assert.ok(parts > 2, `${parts}`);
-    await run(page, 60);
+    // Its parts keep its colour, have cut faces, and do not hold each other: at once, and after seconds.
+    const list = await page.evaluate(() => playground.list.slice(1).map(({ origin, uncut, triangles }) => ({ origin, uncut, count: triangles.length / 3 })));
+    assert.equal(new Set(list.map((body) => body.origin)).size, 1);
+    assert.ok(list.some((body) => body.uncut < body.count && body.uncut > 0));
+    assert.equal((await run(page, 1)).facts.pairs, before.pairs);
+    for (const steps of [60, 300]) assert.ok((await run(page, steps)).facts.deepest < 0.06, JSON.stringify(await facts(page)));
     await page.click("#halve");
     await until(page, () => document.getElementById("log").textContent.match(/bod(?:y|ies) cut|crosses no body/g)?.length === 2);
   });
@@ -128,7 +136,7 @@ test("files of four formats are read as the native library reads them", async ()
   const facets = cube.split("\n").filter((line) => line.startsWith("f")).map((line) => line.slice(2).split(" "));
   write("cube.stl", ["solid cube", ...facets.flatMap((f) => ["facet normal 0 0 0", "outer loop", ...f.map((v) => `vertex ${corners[v - 1]}`), "endloop", "endfacet"]), "endsolid cube", ""].join("\n"));
   const names = ["solid.msh", "two.vtk", "cube.stl", obj];
-  const [expected] = hashesOf(native([...names.map((name) => `file ${path.join(folder, name)} 1000`), "steps 150"]));
+  const [expected] = hashesOf(native([...names.map((name) => `file ${path.join(folder, name)} 1000 1`), "steps 150"]));
   await visit("?scene=empty&stopped", async (page) => {
     await page.setInputFiles("#file", path.join(folder, names[0]));
     await until(page, () => playground.bodies === 2);
@@ -174,22 +182,18 @@ test("the end of the memory is said, and the scene goes on", async () => {
   });
 });
 
-test("all sizes are measured; the predicted best is among the fastest", async (t) => {
-  await visit("?stopped", async (page) => {
-    await run(page, 250);
+test("all sizes are measured one by one while bodies move; then it is said how good the choice was", async (t) => {
+  await visit("", async (page) => {
+    await until(page, () => playground.curve && playground.facts.steps > 100);
     await page.click("#sweep");
-    await until(page, () => playground.points?.length > 10);
-    const { points, curves } = await page.evaluate(() => ({ points: playground.points, curves: playground.curves }));
-    for (const engine of [1, 2]) {
-      const swept = points.filter((point) => point.engine === engine);
-      assert.ok(swept.length >= 9 && swept.every((point) => point.same), JSON.stringify(swept));
-      const fastest = swept.reduce((a, b) => (b.ms < a.ms ? b : a));
-      const away = (point) => Math.abs(Math.log(point.size / curves[engine].size));
-      const best = swept.reduce((a, b) => (away(b) < away(a) ? b : a));
-      t.diagnostic(`engine ${engine}: fastest ${fastest.size.toFixed(3)}, ${fastest.ms.toFixed(3)} ms; predicted best ${best.size.toFixed(3)}, ` +
-        `${best.ms.toFixed(3)} ms measured, ${curves[engine].ms.toFixed(3)} ms predicted`);
-    }
-    await reads(page, "#verdict", /Measured: of \d+ sizes/);
+    await until(page, () => document.querySelectorAll(".chart-swept").length > 3);
+    const { steps } = await facts(page);
+    assert.ok(await page.isDisabled("#sweep"));
+    await reads(page, "#verdict", /Best of \d+ sizes: [\d.]+\. Chosen without measuring: [\d.]+, .*Worst: [\d.]+, [\d.]+ times as long\./);
+    assert.ok((await facts(page)).steps > steps, "the bodies stood still");
+    const swept = await page.evaluate(() => playground.swept);
+    assert.ok(swept.length >= 9, JSON.stringify(swept));
+    t.diagnostic(await page.textContent("#verdict"));
   });
 });
 
@@ -199,9 +203,113 @@ test("bodies that come while all sizes are measured end it, and it can begin aga
     await page.click("#sweep");
     await until(page, () => /Measuring: [1-9]/.test(document.getElementById("sweep").textContent));
     await page.click("#drop");
-    await reads(page, "#banner", /measure again/);
+    await reads(page, "#banner", /Measure again/);
     await until(page, () => !document.getElementById("sweep").disabled);
-    assert.equal(await page.evaluate(() => playground.points.length), 0);
+    assert.equal(await page.locator(".chart-swept").count(), 0);
+  });
+});
+
+test("a mesh of the page's own is one click away, is named, and stands upright; the camera goes to it", async () => {
+  await visit("?scene=empty&stopped", async (page) => {
+    await until(page, () => playground.curve);
+    const target = () => page.evaluate(() => playground.view.controls.target.toArray());
+    const before = await target();
+    for (const [i, name] of ["Knot", "Jack", "Gear"].entries()) {
+      await page.click(`#samples button:nth-child(${i + 1})`);
+      await until(page, (n) => playground.bodies === n, i + 2);
+      await reads(page, "#name", new RegExp(`^${name.toLowerCase()}$`));
+    }
+    assert.ok(await page.isVisible("#name"));
+    await run(page, 20);
+    assert.notDeepEqual(await target(), before);
+    // A bar along y stands with y up, and lies without.
+    const bar = cube.replace(/^v (\S+) (\S+) (\S+)$/gm, (_, x, y, z) => `v ${x} ${4 * y} ${z}`);
+    const heights = [];
+    for (const up of [true, false]) {
+      await page.click("#clear");
+      await until(page, () => playground.bodies === 1);
+      await page.setChecked("#y-up", up);
+      await dropFile(page, "bar.obj", bar);
+      await until(page, () => playground.bodies === 2);
+      heights.push(await page.evaluate(() => {
+        const z = playground.positions.slice(-3 * playground.list[1].vertexCount).filter((_, i) => i % 3 === 2);
+        return Math.max(...z) - Math.min(...z);
+      }));
+    }
+    assert.ok(heights[0] > 3 * heights[1], `${heights}`);
+  });
+});
+
+test("stiffer bodies give way less", async () => {
+  const [soft, stiff] = ["1e4", "1e6"].map((modulus) =>
+    Number(/deepest ([\d.]+), speed/.exec(native([`configure 2 0 ${modulus}`, ...Array(4).fill("drop 0 1000"), "steps 240"]).stdout)[1]));
+  assert.notEqual(soft, stiff);
+  await visit("?scene=empty&stopped", async (page) => {
+    const heights = [];
+    for (const place of ["-1.3", "0.7"]) {
+      await page.fill("#stiffness", place);
+      await page.click("#clear");
+      await until(page, () => playground.bodies === 1);
+      await dropAll(page, 400, [0]);
+      await run(page, 300);
+      heights.push(await page.evaluate(() => Math.max(...playground.positions.slice(-3 * playground.list[1].vertexCount).filter((_, i) => i % 3 === 2))));
+    }
+    assert.ok(heights[0] < heights[1] - 0.1, `${heights}`);
+  });
+});
+
+test("the log has no touches; the hash is short, and copied whole", async () => {
+  await visit("?scene=empty&stopped", async (page, context) => {
+    await context.grantPermissions(["clipboard-read", "clipboard-write"]);
+    await dropAll(page, 400);
+    const { hash } = await run(page, 150);
+    assert.doesNotMatch(await page.textContent("#log"), /touches|leaves/);
+    await reads(page, "#facts", /\d+touching pairs|touching pairs\d+/);
+    await page.click("#inside summary >> nth=0");
+    await reads(page, "#hash", new RegExp(`^${hash.slice(0, 8)}…$`));
+    await page.click("#copy-hash");
+    await reads(page, "#copy-hash", /Copied/);
+    assert.equal(await page.evaluate(() => navigator.clipboard.readText()), hash);
+  });
+});
+
+test("it is as dark as the address or the page around it says", async () => {
+  await visit("?scene=empty&stopped&scheme=dark", async (page) => {
+    const page_colour = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+    const darkest = await page_colour();
+    await page.evaluate(() => postMessage({ scheme: "light" }, "*"));
+    await until(page, (colour) => getComputedStyle(document.body).backgroundColor !== colour, darkest);
+    await page.evaluate(() => postMessage({ scheme: "pink" }, "*"));
+    await page.evaluate(() => postMessage({ scheme: "dark" }, "*"));
+    await until(page, (colour) => getComputedStyle(document.body).backgroundColor === colour, darkest);
+  });
+});
+
+test("on a phone there are two tabs below the bodies, and the slider is as wide as the screen", async () => {
+  await visit("?stopped", async (page) => {
+    await until(page, () => playground.curve);
+    const slider = await page.locator("#size").boundingBox();
+    assert.ok(slider.width > 0.85 * 390 && slider.y + slider.height < 844, JSON.stringify(slider));
+    assert.ok(await page.isHidden("#drop"));
+    await page.click("#tab-play");
+    assert.ok((await page.isVisible("#drop")) && (await page.isHidden("#size")));
+    await page.press("#tab-play", "ArrowLeft");
+    assert.ok(await page.isVisible("#size"));
+  }, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+});
+
+test("labels of the curve do not touch each other", async () => {
+  await visit("?stopped", async (page) => {
+    for (const [engine, place] of [[1, "500"], [1, "430"], [1, "900"], [2, "520"]]) {
+      await page.check(`input[value="${engine}"]`);
+      await until(page, (n) => playground.curve && playground.measured?.engine === n, engine);
+      await page.fill("#size", place);
+      const touching = await page.evaluate(() => {
+        const boxes = [...document.querySelectorAll("#chart text")].map((text) => [text.textContent, text.getBoundingClientRect()]);
+        return boxes.flatMap(([a, p], i) => boxes.slice(i + 1).filter(([, q]) => p.left < q.right && q.left < p.right && p.top + 4 < q.bottom && q.top + 4 < p.bottom).map(([b]) => `${a} / ${b}`));
+      });
+      assert.deepEqual(touching, []);
+    }
   });
 });
 
@@ -209,6 +317,7 @@ test("a snapshot goes to the native tool and back", async () => {
   await visit("?scene=empty&stopped", async (page) => {
     await dropAll(page, 1000);
     const { facts: saved } = await run(page, 200);
+    await page.click("#inside summary >> nth=0");
     const [download] = await Promise.all([page.waitForEvent("download"), page.click("#save")]);
     const file = path.join(folder, download.suggestedFilename());
     await download.saveAs(file);
@@ -243,6 +352,8 @@ test("contacts, cells, tiles and windows are drawn where they are asked for", as
     await dropAll(page, 1000);
     await run(page, 200);
     const look = async () => pngjs.PNG.sync.read(await page.locator("#view").screenshot());
+    await page.click("#inside summary >> nth=0");
+    await page.check('input[value="2"]'); // the engine that has tiles and windows
     await page.uncheck("#show-contacts");
     await page.waitForTimeout(300);
     let last = await look();
@@ -262,8 +373,8 @@ for (const [name, options] of [["light", {}], ["dark", { colorScheme: "dark" }],
   test(`axe finds nothing: ${name}`, async () => {
     await visit("?stopped", async (page) => {
       await run(page, 60);
-      await until(page, () => playground.curves && playground.measured);
-      for (const summary of await page.locator("summary").all()) await summary.click();
+      await until(page, () => playground.curve && playground.measured);
+      for (const details of await page.locator("details").all()) await details.evaluate((one) => (one.open = true));
       await page.evaluate(axe); // through the debugger, which no policy holds back
       const { violations } = await page.evaluate(() => globalThis.axe.run());
       assert.deepEqual(violations.map((v) => `${v.id}: ${v.nodes.map((node) => node.target).join(", ")}`), []);
@@ -295,14 +406,14 @@ test("once loaded, it needs no network", async () => {
 });
 
 test("the time of a step with 30,000 tetrahedra is shown, beside the native one", async (t) => {
-  const done = native([...Array(10).fill("drop 0 3000"), "steps 200", "steps 100"]);
+  const done = native(["configure 1 0 2e5", ...Array(10).fill("drop 0 3000"), "steps 200", "steps 100"]);
   const native200 = Number([...done.stderr.matchAll(/([\d.]+) ms a step/g)][1][1]);
   await visit("?scene=empty&stopped", async (page) => {
     await dropAll(page, 3000, Array(10).fill(0));
     await run(page, 200);
     const { stepMs, facts: found, hash } = await run(page, 100);
     assert.equal(hash, hashesOf(done)[1]);
-    await reads(page, "#facts", /a step[\d.]+ ms/);
+    await reads(page, "#readout", /[\d.]+ ms/);
     t.diagnostic(`${found.tets} tets: ${stepMs.toFixed(2)} ms a step, native ${native200.toFixed(2)} ms: ${(stepMs / native200).toFixed(2)} times`);
     const drawn = await page.evaluate(() =>
       Array.from({ length: 20 }, () => {

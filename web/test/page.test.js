@@ -14,6 +14,7 @@ test("200 frames have the native hash, and the picture is the one on record, wit
     const { hash, facts: found } = await run(page, 200);
     assert.equal(hash, expected);
     assert.ok(found.contacts > 0 && found.tets > 5000, JSON.stringify(found));
+    await page.evaluate(() => ["readout", "facts", "hint", "loading"].forEach((id) => (document.getElementById(id).hidden = true)));
     await page.waitForTimeout(500);
     const shot = pngjs.PNG.sync.read(await page.locator("#view").screenshot());
     // Means of blocks of 20 by 20 pixels, so that no edge of a triangle counts.
@@ -53,25 +54,36 @@ test("a file is dropped on the page: a surface is filled and falls", async () =>
     await logged(page, "filled with");
     const file = path.join(folder, "cube.obj");
     writeFileSync(file, cube);
-    const [expected] = hashesOf(native([`file ${file} 1000`, "steps 100"]));
+    const [expected] = hashesOf(native([`file ${file} 1000 1`, "steps 100"]));
     assert.equal((await run(page, 100)).hash, expected);
     await page.setInputFiles("#file", file); // by the button
     await until(page, () => playground.bodies === 3);
   });
 });
 
-test("the slider: the time at a size beside the predicted one, the same contacts, and back to the best", async () => {
-  await visit("", async (page) => {
-    await until(page, () => playground.curves && playground.measured);
-    await page.fill("#size", "60");
-    await until(page, () => playground.measured.size < playground.curves[1].size / 2);
-    assert.equal(await page.evaluate(() => playground.measured.same), true);
-    await reads(page, "#verdict", /takes [\d.]+ .s for a step \(predicted: [\d.]+ .s\)\. That is [\d.]+ times what/);
-    await reads(page, "#verdict", /the same at every size/);
-    await page.click("#best");
-    await reads(page, "#verdict", /This is the predicted best/);
+test("the slider drives the scene: its cell size, the time that is shown, and the same contacts at every size and by both engines", async () => {
+  const [expected] = hashesOf(native(scene));
+  await visit("?scene=empty&stopped", async (page) => {
+    await dropAll(page, 1000);
+    await until(page, () => playground.curve && playground.measured);
+    assert.ok(await page.isHidden("#loading"));
+    await reads(page, "#step-factor", /^the best$/);
+    for (const mark of [/mean edge \+\d+ %/, /median box \(IPC\) \+\d+ %/, /chosen by vox: you are here/]) await reads(page, "#chart", mark);
+    const best = await page.evaluate(() => playground.size);
+    await page.fill("#size", "200");
+    await run(page, 60);
+    const { cellSize } = await facts(page);
+    assert.ok(cellSize < best / 2, `${cellSize} of ${best}`);
+    assert.equal(cellSize, await page.evaluate(() => playground.size));
+    await reads(page, "#step-factor", /^[\d.]+ × the best$/);
+    await reads(page, "#chart", /you (?:\+\d+ %|[\d.]+ ×)/);
+    await page.fill("#size", "800");
+    await run(page, 60);
+    assert.ok((await facts(page)).cellSize > 2 * best);
     await page.check('input[value="2"]');
-    await until(page, () => playground.measured.engine === 2);
+    await until(page, () => playground.curve && playground.measured.engine === 2);
+    await page.click("#best");
+    assert.equal((await run(page, 80)).hash, expected);
     await page.click("summary >> nth=0");
     assert.ok((await page.locator("#terms tbody tr").count()) >= 5);
   });

@@ -26,7 +26,7 @@ after(async () => {
 /** Waits until a function is true in the page. Playwright's own way needs a page that allows eval(). */
 export async function until(page, holds, argument = null) {
   for (const end = Date.now() + 120000; !(await page.evaluate(holds, argument)); await page.waitForTimeout(50))
-    assert.ok(Date.now() < end, `in vain: ${holds} (${JSON.stringify(argument)})`);
+    if (Date.now() > end) assert.fail(`in vain: ${holds} (${JSON.stringify(argument)}); the page: ${await page.textContent("body")}`);
 }
 
 /** Runs `use` on a page of its own. Whatever it logs as an error, or asks of another server, fails the test. */
