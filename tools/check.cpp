@@ -293,6 +293,7 @@ void add_check(CommandLine& line) {
         .shown_as("FILE");
     add_keep_unused(command, options->reading);
     command.flag("--json", options->json, "Print one JSON object");
+    command.examples("  vox check cloth.obj\n  vox check skin.stl -o crossings.vtu");
     command.runs([options] { run_check(*options); });
 }
 

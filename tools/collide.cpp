@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <set>
 
 namespace tool {
 
@@ -32,10 +33,22 @@ struct CollideOptions {
     bool json = false;
 };
 
+// The vertices of either body, as "A 3 in B 0 1 2 3".
+std::string vertices_of(const vox_constraint& c, const std::vector<vox_body>& ids) {
+    std::string words;
+    for (std::uint32_t i = 0; i < c.count; ++i) {
+        if (i == 0 || i == c.count_a)
+            words += std::string(i == 0 ? "" : " in ") +
+                     (place_of(ids, i == 0 ? c.body_a : c.body_b) == 0 ? "A" : "B");
+        words += " " + std::to_string(c.vertices[i]);
+    }
+    return words;
+}
+
 void print_constraints(const CollideOptions& options, const vox_grid* grid,
                        const std::vector<vox_body>& ids) {
     const std::span<const vox_constraint> all = constraints_of(grid);
-    std::printf("\n%zu %s", all.size(), all.size() == 1 ? "constraint" : "constraints");
+    std::printf("%zu %s", all.size(), all.size() == 1 ? "constraint" : "constraints");
     const char* separator = ": ";
     for (const vox_constraint_kind kind :
          {VOX_CONSTRAINT_INSIDE, VOX_CONSTRAINT_EDGE, VOX_CONSTRAINT_PROXIMITY, VOX_CONSTRAINT_IMPACT})
@@ -44,21 +57,53 @@ void print_constraints(const CollideOptions& options, const vox_grid* grid,
             separator = ", ";
         }
     std::printf("\n");
-    const std::size_t shown = static_cast<std::size_t>(std::min<std::uint64_t>(all.size(), options.limit));
-    if (shown > 0) std::printf("  kind       vertices, those of the other body; gap, normal, state\n");
-    for (const vox_constraint& c : all.first(shown)) {
-        std::printf("  %-9s ", kind_name(c.kind));
-        for (std::uint32_t i = 0; i < c.count; ++i) {
-            if (i == 0 || i == c.count_a)
-                std::printf("  %c", place_of(ids, i == 0 ? c.body_a : c.body_b) == 0 ? 'A' : 'B');
-            std::printf(" %u", c.vertices[i]);
-        }
-        std::printf("; %.6g, %.6f %.6f %.6f, %s", c.gap, c.normal[0], c.normal[1], c.normal[2],
-                    state_name(c.state));
-        if (c.time < 1) std::printf(", at %.9g of the way", c.time);
+    std::vector<const vox_constraint*> deepest;
+    for (const vox_constraint& c : all) deepest.push_back(&c);
+    std::ranges::stable_sort(deepest, {}, &vox_constraint::gap);
+    deepest.resize(std::min<std::uint64_t>(deepest.size(), options.limit));
+    if (!deepest.empty())
+        std::printf("\n  %-9s  %11s  %-32s  %-26s  %-10s  %s\n", "kind", "gap", "at", "out along", "state",
+                    "vertices");
+    for (const vox_constraint* c : deepest) {
+        char at[64], along[64];
+        std::snprintf(at, sizeof at, "%.6g %.6g %.6g", c->position[0], c->position[1], c->position[2]);
+        std::snprintf(along, sizeof along, "%.4f %.4f %.4f", c->normal[0], c->normal[1], c->normal[2]);
+        std::printf("  %-9s  %11.6g  %-32s  %-26s  %-10s  %s", kind_name(c->kind), c->gap, at, along,
+                    state_name(c->state), vertices_of(*c, ids).c_str());
+        if (c->time < 1) std::printf(", at %.9g of the way", c->time);
         std::printf("\n");
     }
-    print_rest(all.size() - shown);
+    print_rest(all.size() - deepest.size());
+}
+
+// How many contacts and vertices, the deepest and where.
+void print_summary(const vox_grid* grid) {
+    const std::span<const vox_contact> contacts = contacts_of(grid);
+    std::set<std::pair<vox_body, std::uint32_t>> vertices;
+    for (const vox_contact& contact : contacts) vertices.insert({contact.body_a, contact.vertex});
+    char words[200];
+    int used = std::snprintf(words, sizeof words, "%zu %s of %zu %s", contacts.size(),
+                             contacts.size() == 1 ? "contact" : "contacts", vertices.size(),
+                             vertices.size() == 1 ? "vertex" : "vertices");
+    const vox_constraint* deepest = nullptr;
+    for (const vox_constraint& c : constraints_of(grid))
+        if (c.kind == VOX_CONSTRAINT_INSIDE && c.gap < (deepest ? deepest->gap : 0)) deepest = &c;
+    if (deepest)
+        std::snprintf(words + used, sizeof words - static_cast<std::size_t>(used),
+                      "; the deepest is %.4g inside, at (%.4g, %.4g, %.4g)", -deepest->gap,
+                      deepest->position[0], deepest->position[1], deepest->position[2]);
+    std::printf("\n%s\n", emphasised(words).c_str());
+}
+
+void print_contacts(const CollideOptions& options, const vox_grid* grid, const std::vector<vox_body>& ids) {
+    const std::span<const vox_contact> contacts = contacts_of(grid);
+    const std::size_t shown =
+        static_cast<std::size_t>(std::min<std::uint64_t>(contacts.size(), options.limit));
+    if (shown > 0) std::printf("  %12s %14s\n", "vertex", "in tet");
+    for (const vox_contact& contact : contacts.first(shown))
+        std::printf("  %c %10u   %c %10u\n", place_of(ids, contact.body_a) == 0 ? 'A' : 'B', contact.vertex,
+                    place_of(ids, contact.body_b) == 0 ? 'A' : 'B', contact.tet);
+    print_rest(contacts.size() - shown);
 }
 
 void print_collide(const CollideOptions& options, const vox_grid* grid, const std::vector<Body>& bodies,
@@ -71,17 +116,10 @@ void print_collide(const CollideOptions& options, const vox_grid* grid, const st
                     bodies[i].view.tet_count > 0
                         ? ""
                         : " (a surface: its vertices collide, but it has no inside; --fill makes one)");
-    const std::span<const vox_contact> contacts = contacts_of(grid);
-    std::printf("\n%zu %s\n", contacts.size(), contacts.size() == 1 ? "contact" : "contacts");
-    const std::size_t shown =
-        static_cast<std::size_t>(std::min<std::uint64_t>(contacts.size(), options.limit));
-    if (shown > 0) std::printf("  %12s %14s\n", "vertex", "in tet");
-    for (const vox_contact& contact : contacts.first(shown))
-        std::printf("  %c %10u   %c %10u\n", place_of(ids, contact.body_a) == 0 ? 'A' : 'B', contact.vertex,
-                    place_of(ids, contact.body_b) == 0 ? 'A' : 'B', contact.tet);
-    print_rest(contacts.size() - shown);
-    print_constraints(options, grid, ids);
-    std::printf("\nhash %s, cell size %.9g\n", hexadecimal(hash_of(grid)).c_str(), info_of(grid).cell_size);
+    print_summary(grid);
+    if (options.no_depth) print_contacts(options, grid, ids);
+    if (!options.no_depth || options.edges) print_constraints(options, grid, ids);
+    std::printf("\nhash %s, cell size %.4g\n", hexadecimal(hash_of(grid)).c_str(), info_of(grid).cell_size);
     std::printf("step %.3f ms: ", ms("step_ns"));
     if (value_of(times, "stream_ns") > 0) // the fast engine
         std::printf("stream %.3f, winding %.3f, broad phase %.3f, windows %.3f, lookup %.3f, decide %.3f",
@@ -199,7 +237,8 @@ void add_collide(CommandLine& line) {
         .option("--repeat", options->repeat,
                 "Number of steps to time, after one to warm up; the bodies wobble, and come back")
         .range(1, 1000000);
-    command.option("--limit", options->limit, "Most contacts, and constraints, to print as text");
+    command.option("--limit", options->limit,
+                   "Most constraints (with --no-depth: contacts) to print as text, the deepest first");
     command.flag("--no-depth", options->no_depth,
                  "Leave out depths: the gaps of vertices inside are 0, and so are their normals");
     command.flag("--edges", options->edges, "Also find edges of one mesh through faces of the other");
@@ -211,6 +250,8 @@ void add_collide(CommandLine& line) {
     command.option("--save", options->save, "Write a snapshot of the grid to this file, for vox replay")
         .shown_as("FILE");
     command.flag("--json", options->json, "Print one JSON object");
+    command.examples(
+        "  vox collide bunny.msh cow.msh --offset 0.5 0 0\n  vox collide body.msh --self -o contacts.vtu");
     command.runs([options] { run_collide(*options); });
 }
 

@@ -114,6 +114,7 @@ OptionUsage usage_of(const CLI::Option& option) {
         usage.value = type;
     usage.choices = split_choices(type);
     usage.description = option.get_description();
+    usage.default_value = option.get_default_str();
     usage.required = option.get_required();
     usage.repeated = option.get_positional() && option.get_items_expected_max() > 1;
     return usage;
@@ -145,6 +146,12 @@ template <class Number>
 bool read(const std::string& text, Number& value) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     return error == std::errc() && end == text.data() + text.size();
+}
+
+std::string words_of(double value) {
+    char words[32];
+    std::snprintf(words, sizeof words, "%.6g", value);
+    return words;
 }
 
 } // namespace
@@ -195,7 +202,7 @@ Option Command::option(const std::string& name, std::string& value, const std::s
         value = given.front();
         return true;
     };
-    return option(name, "TEXT", description, take);
+    return option(name, "TEXT", description, value, take);
 }
 Option Command::option(const std::string& name, std::vector<std::string>& value,
                        const std::string& description) {
@@ -203,10 +210,10 @@ Option Command::option(const std::string& name, std::vector<std::string>& value,
         value = given;
         return true;
     };
-    return option(name, "TEXT ...", description, take);
+    return option(name, "TEXT ...", description, "", take);
 }
 Option Command::option(const std::string& name, double& value, const std::string& description) {
-    return option(name, "FLOAT", description,
+    return option(name, "FLOAT", description, value == 0 ? "" : words_of(value),
                   [&value](const std::vector<std::string>& given) { return read(given.front(), value); });
 }
 Option Command::option(const std::string& name, std::vector<double>& value, const std::string& description) {
@@ -216,24 +223,28 @@ Option Command::option(const std::string& name, std::vector<double>& value, cons
             if (!read(given[i], value[i])) return false;
         return true;
     };
-    return option(name, "FLOAT ...", description, take);
+    std::string all;
+    for (const double number : value) all += (all.empty() ? "" : " ") + words_of(number);
+    return option(name, "FLOAT ...", description, all, take);
 }
 Option Command::option(const std::string& name, std::uint32_t& value, const std::string& description) {
     const auto take = [&value](const std::vector<std::string>& given) { return read(given.front(), value); };
-    return option(name, "UINT", description, take).range(0, UINT32_MAX);
+    return option(name, "UINT", description, std::to_string(value), take).range(0, UINT32_MAX);
 }
 Option Command::option(const std::string& name, std::uint64_t& value, const std::string& description) {
     const auto take = [&value](const std::vector<std::string>& given) { return read(given.front(), value); };
-    return option(name, "UINT", description, take).range(0, UINT64_MAX);
+    return option(name, "UINT", description, std::to_string(value), take).range(0, UINT64_MAX);
 }
 
 // CLI11's own options for the types above are templates that take seconds to compile.
 Option Command::option(const std::string& name, const std::string& type, const std::string& description,
+                       const std::string& default_value,
                        const std::function<bool(const std::vector<std::string>&)>& take) {
     CLI::Option* const added = app_->add_option(name, CLI::callback_t(take), description);
     const bool several = type.ends_with(" ...");
     added->type_name(several ? type.substr(0, type.size() - 4) : type);
     if (several) added->expected(CLI::detail::expected_max_vector_size);
+    if (name.starts_with('-')) added->default_str(default_value);
     return Option(added);
 }
 
@@ -253,8 +264,10 @@ Option Command::choice_of(const std::string& name, const std::vector<std::string
         choose(static_cast<std::size_t>(found - names.begin()));
         return true;
     };
-    return option(name, all, description, take);
+    return option(name, all, description, names.front(), take);
 }
+
+void Command::examples(const std::string& lines) { app_->footer("Examples:\n" + lines); }
 
 void Command::runs(const std::function<void()>& function) { app_->callback(function); }
 
@@ -310,7 +323,7 @@ Usage CommandLine::usage() const {
     for (const CLI::Option* option : app_->get_options()) usage.options.push_back(usage_of(*option));
     for (const CLI::App* command : app_->get_subcommands([](const CLI::App*) { return true; })) {
         CommandUsage& added = usage.commands.emplace_back(
-            CommandUsage{command->get_name(), command->get_description(), {}, {}});
+            CommandUsage{command->get_name(), command->get_description(), command->get_footer(), {}, {}});
         for (const CLI::Option* option : command->get_options())
             (option->get_positional() ? added.arguments : added.options).push_back(usage_of(*option));
     }

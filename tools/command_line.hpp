@@ -81,10 +81,13 @@ public:
             name, names, [&value, &choices](std::size_t i) { value = choices[i].value; }, description);
     }
 
+    // Lines of the usage that show the command in use.
+    void examples(const std::string& lines);
     void runs(const std::function<void()>& function);
 
 private:
     Option option(const std::string& name, const std::string& type, const std::string& description,
+                  const std::string& default_value,
                   const std::function<bool(const std::vector<std::string>&)>& take);
     Option choice_of(const std::string& name, const std::vector<std::string>& names,
                      const std::function<void(std::size_t)>& choose, const std::string& description);
@@ -94,15 +97,15 @@ private:
 
 // An option or an argument in the usage.
 struct OptionUsage {
-    std::vector<std::string> names;   // "-o", "--output"; empty for an argument
-    std::string value;                // FLOAT, FILE, ...; the name of an argument; empty for a flag
-    std::vector<std::string> choices; // the accepted values, if they are a few words
-    std::string description;
+    std::vector<std::string> names;         // "-o", "--output"; empty for an argument
+    std::string value;                      // FLOAT, FILE, ...; the name of an argument; empty for a flag
+    std::vector<std::string> choices;       // the accepted values, if they are a few words
+    std::string description, default_value; // "": none
     bool required = false, repeated = false;
 };
 
 struct CommandUsage {
-    std::string name, description;
+    std::string name, description, examples;
     std::vector<OptionUsage> arguments, options;
 };
 

@@ -113,21 +113,21 @@ std::string short_names(const std::vector<std::string>& files) {
     return names;
 }
 
-std::string curve_svg(const vox_cell_size_result& c, const std::string& words) {
+std::string curve_svg(const vox_cell_size_result& c, const CurveWords& words) {
     const Axes axes(c);
     const double floor_y = height - below;
     std::string text;
     add(text,
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %g %g\" font-family=\"sans-serif\" "
-        "font-size=\"13\">\n<title>Predicted cost over cell size</title>\n",
-        width, height);
+        "font-size=\"13\">\n<title>%s</title>\n",
+        width, height, xml_text(words.title).c_str());
     text += style;
     add(text, "<rect class=\"paper\" width=\"%g\" height=\"%g\"/>\n", width, height);
     add(text, "<clipPath id=\"frame\"><rect x=\"%g\" y=\"%g\" width=\"%g\" height=\"%g\"/></clipPath>\n",
         left, above, width - left - right, floor_y - above);
-    add(text, "<text x=\"%g\" y=\"24\" font-size=\"17\">Predicted cost over cell size</text>\n", left);
+    add(text, "<text x=\"%g\" y=\"24\" font-size=\"17\">%s</text>\n", left, xml_text(words.title).c_str());
     add(text, "<text x=\"%g\" y=\"46\" class=\"dim\">", left);
-    text += xml_text(words) + "</text>\n";
+    text += xml_text(words.below) + "</text>\n";
     add(text,
         "<text transform=\"translate(20 %g) rotate(-90)\" text-anchor=\"middle\">cost, in units of the "
         "least</text>\n",
@@ -155,6 +155,10 @@ std::string curve_svg(const vox_cell_size_result& c, const std::string& words) {
 
     add(text, "<text x=\"%.2f\" y=\"%g\" text-anchor=\"middle\" class=\"best\">nearly as good</text>\n",
         (axes.x(c.zone_min) + axes.x(c.zone_max)) / 2, floor_y - 10);
+    for (const vox_timing& timing : std::span(c.timings).first(c.timing_count))
+        if (axes.shows(timing.cell_size) && axes.y(timing.seconds) > above)
+            add(text, "<circle class=\"dim\" cx=\"%.2f\" cy=\"%.2f\" r=\"3\"/>\n", axes.x(timing.cell_size),
+                axes.y(timing.seconds));
     add_rules(text, axes, std::span(c.rules).first(c.rule_count));
     add(text, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"6\" class=\"best\"/>\n", axes.x(c.cell_size),
         axes.y(c.cost));

@@ -8,8 +8,12 @@
 
 namespace tool {
 
-// The text of an SVG file. `words` say what costs.
-std::string curve_svg(const vox_cell_size_result& found, const std::string& words);
+struct CurveWords {
+    std::string title, below; // the second one says what costs
+};
+
+// The text of an SVG file, with dots for the timings of the result.
+std::string curve_svg(const vox_cell_size_result& found, const CurveWords& words);
 
 // The names of up to three files without their folders.
 std::string short_names(const std::vector<std::string>& files);

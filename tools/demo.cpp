@@ -66,6 +66,7 @@ void add_demo(CommandLine& line) {
         .range(1, 100000000);
     command.option("--frames", options->frames, "Number of frames").range(1, 1000000);
     command.flag("--json", options->json, "Print one JSON object");
+    command.examples("  vox demo\n  vox demo --tets 100000 --frames 5");
     command.runs([options] { run_demo(*options); });
 }
 

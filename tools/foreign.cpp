@@ -147,7 +147,7 @@ double run_program(double cell_size, void* user) {
 
 void print_suggestion(const vox_cell_size_result& found, const Primitives& stored) {
     std::printf(
-        "Suggested cell size %.9g for %llu %s.\nBetween %.9g and %.9g the predicted cost stays near its "
+        "Suggested cell size %.4g for %llu %s.\nBetween %.4g and %.4g the predicted cost stays near its "
         "minimum.\n\n",
         found.cell_size, llu(stored.desc.count), stored.word, found.zone_min, found.zone_max);
     print_reasons(found);
@@ -155,8 +155,8 @@ void print_suggestion(const vox_cell_size_result& found, const Primitives& store
 
 void print_tuning(const vox_cell_size_result& found) {
     std::printf(
-        "Best cell size %.9g: %.4g s a run, after %u runs. At most about %.1f %% slower than the best "
-        "there is.\nBetween %.9g and %.9g a run takes nearly as little.\n\n",
+        "Best cell size %.4g: %.4g s a run, after %u runs. At most about %.1f %% slower than the best "
+        "there is.\nBetween %.4g and %.4g a run takes nearly as little.\n\n",
         found.cell_size, found.cost, found.timing_count, 100 * found.expected_loss, found.zone_min,
         found.zone_max);
     print_reasons(found);
@@ -218,7 +218,7 @@ void suggest_foreign(const ForeignOptions& options, const std::vector<Body>& bod
         check(vox_foreign_grid_suggest(&grid, &found));
         words += std::string("; a grid of ") + stored.word;
     }
-    if (!svg.empty()) write_file(svg, curve_svg(found, words));
+    if (!svg.empty()) write_file(svg, curve_svg(found, {"Predicted cost over cell size", words}));
     if (!json) return tune ? print_tuning(found) : print_suggestion(found, stored);
     Json all = Json::object();
     if (!bodies.empty()) all.add("meshes", body_list(bodies));

@@ -72,7 +72,7 @@ void print_count(const char* name, std::uint64_t value) { std::printf("  %-18s %
 
 void print_number(const char* name, std::optional<double> value) {
     if (!value) return;
-    std::printf(std::isfinite(*value) ? "  %-18s %.9g\n" : "  %-18s too large for a double\n", name, *value);
+    std::printf(std::isfinite(*value) ? "  %-18s %.6g\n" : "  %-18s too large for a double\n", name, *value);
 }
 
 void print_angles(const Info& info) {
@@ -127,6 +127,7 @@ void add_info(CommandLine& line) {
     command.option("MESH", options->files, "Mesh files").required();
     add_keep_unused(command, options->reading);
     command.flag("--json", options->json, "Print one JSON object");
+    command.examples("  vox info bunny.msh\n  vox info *.msh --json");
     command.runs([options] { run_info(*options); });
 }
 

@@ -32,7 +32,8 @@ std::string synopsis(const OptionUsage& argument) {
 void add_option(std::string& page, const OptionUsage& option) {
     page += ".TP\n\\fB" + troff(joined(option.names, ", ")) + "\\fR";
     if (!option.value.empty()) page += " \\fI" + troff(option.value) + "\\fR";
-    page += "\n" + troff(option.description) + (option.required ? " (required)" : "") + ".\n";
+    page += "\n" + troff(option.description) + (option.required ? " (required)" : "") +
+            (option.default_value.empty() ? "" : " (default: " + troff(option.default_value) + ")") + ".\n";
 }
 
 // ---- completions ------------------------------------------------------------------------------------
@@ -83,6 +84,7 @@ std::string manual_page(const Usage& usage, const std::string& version) {
             page += ".TP\n\\fI" + troff(argument.value) + "\\fR\n" + troff(argument.description) + ".\n";
         }
         for (const OptionUsage& option : command.options) add_option(page, option);
+        if (!command.examples.empty()) page += ".PP\n.nf\n" + troff(command.examples) + "\n.fi\n";
     }
     page += ".SH EXIT STATUS\n.TP\n0\nSuccess.\n.TP\n1\nBad input, or output that cannot be "
             "written.\n.TP\n2\nWrong "

@@ -118,6 +118,7 @@ void add_replay(CommandLine& line) {
                 "Write meshes, contacts and constraints: .vtu or .msh, or a series of snapshots, .pvd")
         .shown_as("FILE");
     command.flag("--json", options->json, "Print one JSON object");
+    command.examples("  vox replay grid.vox\n  vox replay grid.vox --json");
     command.runs([options] { run_replay(*options); });
 }
 

@@ -204,7 +204,7 @@ void print_reasons(const vox_cell_size_result& result, double mean_edge) {
                 cost_curve(result).c_str());
     const auto print_rule = [&](const char* name, double cell_size, double cost) {
         if (!(cell_size > 0)) return;
-        std::printf("  %-48s %-12.9g", name, cell_size);
+        std::printf("  %-48s %-12.4g", name, cell_size);
         if (mean_edge > 0) std::printf(" %6.2f", cell_size / mean_edge);
         if (cost > 0) std::printf(" %+7.0f %%", 100 * (cost / result.cost - 1));
         std::printf("\n");

@@ -7,6 +7,7 @@
 #include "options.hpp"
 #include "output_file.hpp"
 #include "report.hpp"
+#include "terminal.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -36,22 +37,40 @@ std::string model_words(vox_cost_model model) {
                : "cost model of the " + std::string(model_name(model)) + " engine";
 }
 
+// Whom a cell size is for.
+const char* user_of(vox_cost_model model) {
+    switch (model) {
+    case VOX_COST_MODEL_PAPER:
+        return "the paper's algorithm (the default engine chooses its own: leave cell_size at 0)";
+    case VOX_COST_MODEL_REFERENCE:
+        return "the reference engine";
+    case VOX_COST_MODEL_FAST:
+        return "the fast engine";
+    case VOX_COST_MODEL_SURFACE:
+        break;
+    }
+    return "surface pairs";
+}
+
 void print_suggest(const vox_cell_size_result& found, vox_cost_model model, const vox_geometry& geometry,
                    std::size_t mesh_count) {
     const double mean_edge = geometry.mean_edge;
     if (!collides(found)) {
         std::printf("Nothing collides: %s. Every cell size costs the engine the same, which is nothing.\n"
-                    "The mean edge is %.9g. --model paper suggests a cell size from the tetrahedra alone.\n",
+                    "The mean edge is %.4g. --model paper suggests a cell size from the tetrahedra alone.\n",
                     mesh_count == 1 ? "there is one mesh, and --self is not given"
                                     : "the boxes of the meshes do not meet",
                     mean_edge);
         return;
     }
-    std::printf("Suggested cell size %.9g, %.2f mean edges.\n", found.cell_size, found.cell_size / mean_edge);
-    std::printf("Between %.9g and %.9g the predicted cost stays near its minimum.\n\n", found.zone_min,
+    char words[160];
+    std::snprintf(words, sizeof words, "Suggested cell size %.4g, %.2f mean edges", found.cell_size,
+                  found.cell_size / mean_edge);
+    std::printf("%s, for %s.\n", emphasised(words).c_str(), user_of(model));
+    std::printf("Between %.4g and %.4g the predicted cost stays near its minimum.\n\n", found.zone_min,
                 found.zone_max);
     print_reasons(found, mean_edge);
-    std::printf("\n%zu %s, %llu vertices, %llu tetrahedra, mean edge %.9g, mean facet area %.9g.\n",
+    std::printf("\n%zu %s, %llu vertices, %llu tetrahedra, mean edge %.4g, mean facet area %.4g.\n",
                 mesh_count, mesh_count == 1 ? "mesh" : "meshes", llu(geometry.vertices), llu(geometry.tets),
                 mean_edge, geometry.mean_facet_area);
     std::printf("%.4g cells along an edge of the world; predicted cost ", found.cells_per_axis);
@@ -91,7 +110,8 @@ void run_suggest(const SuggestOptions& options) {
         if (!collides(found))
             throw Failure(options.svg + ": nothing collides, so that there is no cost to draw");
         write_file(options.svg,
-                   curve_svg(found, short_names(options.files) + "; " + model_words(desc.model)));
+                   curve_svg(found, {"Predicted cost over cell size",
+                                     short_names(options.files) + "; " + model_words(desc.model)}));
     }
     if (!options.json) return print_suggest(found, desc.model, geometry, meshes.size());
     Json json = Json::object();
@@ -109,15 +129,21 @@ void add_suggest(CommandLine& line) {
     command.option("MESH", options->files, "Mesh files: tetrahedra, surfaces or points");
     add_reading(command, options->reading);
     command.choice("--model", desc.model, models, "Cost model to minimise");
-    command.option("--p-nc", desc.p_nc, "Probability that a tetrahedron has no collision, between 0 and 1")
+    command
+        .option("--p-nc", desc.p_nc,
+                "Probability that a tetrahedron has no collision, between 0 and 1; 0.99 if not given")
         .fraction();
-    command.option("--ratio", desc.cost_ratio, "Cost of a particle test divided by that of a cell visit")
+    command
+        .option("--ratio", desc.cost_ratio,
+                "Cost of a particle test divided by the cost of a cell visit; 5 if not given")
         .positive();
     command
         .option("--world", desc.world_edge,
                 "Edge of the cubic world, for the cells per axis; 0: longest side of the bounds")
         .not_negative();
-    command.option("--zone-loss", desc.zone_loss, "Relative loss of predicted cost that ends the zone")
+    command
+        .option("--zone-loss", desc.zone_loss,
+                "Relative loss of predicted cost that ends the zone; 0.05 if not given")
         .not_negative();
     command.flag("--self", options->self, "The bodies also collide with themselves");
     command.flag("--calibrate", options->calibrate,
@@ -125,6 +151,8 @@ void add_suggest(CommandLine& line) {
     add_foreign(command, options->foreign);
     command.option("--svg", options->svg, "Write the cost curve as a picture to this file");
     command.flag("--json", options->json, "Print one JSON object");
+    command.examples(
+        "  vox suggest bunny.msh\n  vox suggest cloud.ply --points --radius 0.1 --grid point-voxels");
     command.runs([options] { run_suggest(*options); });
 }
 

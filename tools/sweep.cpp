@@ -2,6 +2,7 @@
 // two bodies in contact.
 #include "body.hpp"
 #include "commands.hpp"
+#include "curve_svg.hpp"
 #include "experiment/experiment.hpp"
 #include "experiment/fit.hpp"
 #include "failure.hpp"
@@ -40,7 +41,7 @@ struct SweepOptions {
     std::uint32_t count = 24;
     std::uint32_t rounds = 7;
     std::uint64_t seed = 1;
-    std::string csv, resume;
+    std::string csv, resume, svg;
     bool force = false; // replace the file of `csv`
     bool json = false;
 };
@@ -123,18 +124,6 @@ std::string remaining(std::chrono::duration<double> seconds) {
     const long long whole = std::llround(std::ceil(seconds.count()));
     std::snprintf(text, sizeof text, "%lld:%02lld left", whole / 60, whole % 60);
     return text;
-}
-
-// Warns if others had the processors for a good part of the time: caches are then shared, too, and what
-// several threads need cannot be told from waiting.
-void warn_if_busy(std::chrono::duration<double> passed, double processor) {
-    constexpr double share = 0.9;
-    if (processor >= share * passed.count()) return;
-    std::fprintf(
-        stderr,
-        "vox: warning: the machine is busy: of %.1f s of measuring, this process had a processor for "
-        "%.1f s; times may be too long\n",
-        passed.count(), processor);
 }
 
 void measure(const SweepOptions& options, Experiment& experiment, const vox_cell_size_result& suggestion,
@@ -364,6 +353,42 @@ void print_sweep(const Sweep& sweep) {
     }
 }
 
+const char* words_of_rule(const std::string& rule) {
+    for (const auto& [name, words] : rule_names)
+        if (rule == name) return words;
+    return "suggested";
+}
+
+// The paper's Fig. 3: the fitted time over the cell size, the times of the sizes measured and of the rules.
+std::string sweep_svg(const Sweep& sweep) {
+    const TimeFit& fit = sweep.found.fit;
+    auto drawn = sized<vox_cell_size_result>();
+    drawn.cell_size = fit.cell_size;
+    drawn.cost = fit.time;
+    drawn.zone_min = sweep.found.five_percent.min;
+    drawn.zone_max = sweep.found.five_percent.max;
+    drawn.curve_count = VOX_CURVE_CAPACITY;
+    for (std::uint32_t i = 0; i < drawn.curve_count; ++i) {
+        const double size =
+            fit.range_min * std::pow(fit.range_max / fit.range_min, i / (VOX_CURVE_CAPACITY - 1.0));
+        drawn.curve[i] = {size, fitted_time(fit, size)};
+    }
+    const std::size_t every = (sweep.sizes.size() + VOX_TIMING_CAPACITY - 1) / VOX_TIMING_CAPACITY;
+    for (std::size_t i = 0; i < sweep.sizes.size(); ++i) {
+        const Size& size = sweep.sizes[i];
+        if (!size.time) continue;
+        if (size.rule.empty() && i % every == 0)
+            drawn.timings[drawn.timing_count++] = {size.cell_size, *size.time};
+        if (!size.rule.empty() && drawn.rule_count < VOX_RULE_CAPACITY)
+            drawn.rules[drawn.rule_count++] = {words_of_rule(size.rule), size.cell_size, *size.time};
+    }
+    char best[96];
+    std::snprintf(best, sizeof best, "; best %.4g ms at n = %.4g, fitted", fit.time * 1e-6,
+                  sweep.world / fit.cell_size);
+    return curve_svg(drawn, {"Time of detection over cell size",
+                             short_names({sweep.bodies.front().name, sweep.bodies.back().name}) + best});
+}
+
 // ---- the command ------------------------------------------------------------------------------------
 
 std::string engine_name(const GridOptions& grid) {
@@ -382,7 +407,7 @@ void check_sweep_usage(const SweepOptions& options) {
     check_range(options.cells_per_axis, "--cells-per-axis");
     if (!options.csv.empty() && !options.force && std::filesystem::exists(path_of(options.csv)))
         throw Failure(options.csv + ": there is such a file; --resume continues it, --force replaces it");
-    for (const std::string& path : {options.csv, options.resume})
+    for (const std::string& path : {options.csv, options.resume, options.svg})
         if (!path.empty()) check_output(path);
     const std::vector<double>& axis = options.experiment.axis;
     const double length = std::hypot(axis[0], axis[1], axis[2]);
@@ -423,6 +448,7 @@ void run_sweep(const SweepOptions& options) {
     measure(options, experiment, sweep.suggestion, log, sweep.sizes);
     collect(options, log, sweep.sizes);
     sweep.found = evaluate(sweep.sizes, range_min, range_max);
+    if (!options.svg.empty()) write_file(options.svg, sweep_svg(sweep));
     options.json ? print_sweep_json(sweep) : print_sweep(sweep);
 }
 
@@ -466,7 +492,12 @@ void add_sweep(CommandLine& line) {
     Option csv = command.option("--csv", options->csv, "Write each sample to this new file");
     command.flag("--force", options->force, "Replace the file of --csv if it exists").needs(csv);
     command.option("--resume", options->resume, "As --csv, but continue the file if it exists").excludes(csv);
+    command
+        .option("--svg", options->svg,
+                "Draw times over the cell size, as in the paper's Fig. 3, to this file")
+        .shown_as("FILE");
     command.flag("--json", options->json, "Print one JSON object");
+    command.examples("  vox sweep bunny.msh --svg sweep.svg\n  vox sweep --ball 20000 --csv times.csv");
     command.runs([options] { run_sweep(*options); });
 }
 

@@ -26,11 +26,11 @@ namespace tool {
 
 namespace {
 
-bool standard_error_is_terminal() {
+bool is_terminal(std::FILE* file) {
 #ifdef _WIN32
-    return _isatty(_fileno(stderr)) != 0;
+    return _isatty(_fileno(file)) != 0;
 #else
-    return isatty(STDERR_FILENO) != 0;
+    return isatty(fileno(file)) != 0;
 #endif
 }
 
@@ -71,12 +71,12 @@ Progress::Progress() : begin_(std::chrono::steady_clock::now()) {}
 
 Progress::~Progress() { hide(); }
 
-void Progress::show_always() { lines = !standard_error_is_terminal(); }
+void Progress::show_always() { lines = !is_terminal(stderr); }
 
 void Progress::show(const std::string& where) {
     const auto now = std::chrono::steady_clock::now();
     const bool due = lines ? !shown_ || now - last_ >= std::chrono::seconds(1)
-                           : standard_error_is_terminal() && now - begin_ >= std::chrono::milliseconds(500) &&
+                           : is_terminal(stderr) && now - begin_ >= std::chrono::milliseconds(500) &&
                                  now - last_ >= std::chrono::milliseconds(100);
     if (due) print(where);
 }
@@ -93,7 +93,7 @@ void Progress::begin_reading(const std::string& path) {
         std::snprintf(words, sizeof words, ", %.0f MB", bytes * 1e-6);
     reading_ += words;
     // Readers take some tens of megabytes a second.
-    if (lines || (standard_error_is_terminal() && bytes > 1e7)) print(reading_);
+    if (lines || (is_terminal(stderr) && bytes > 1e7)) print(reading_);
 }
 
 void Progress::show_read(double fraction) {
@@ -139,6 +139,22 @@ std::string shown(const std::string& text) {
         i += length > 0 ? length : 1;
     }
     return result;
+}
+
+std::string emphasised(const std::string& text) {
+    const char* const off = std::getenv("NO_COLOR");
+    if ((off && *off) || !is_terminal(stdout)) return text;
+    return "\033[1;32m" + text + "\033[0m";
+}
+
+void warn_if_busy(std::chrono::duration<double> passed, double processor) {
+    constexpr double share = 0.9;
+    if (processor >= share * passed.count()) return;
+    std::fprintf(
+        stderr,
+        "vox: warning: the machine is busy: of %.1f s of measuring, this process had a processor for "
+        "%.1f s; times may be too long\n",
+        passed.count(), processor);
 }
 
 bool locale_is_utf8() {

@@ -56,6 +56,13 @@ private:
 // so that they do nothing there, and U+FFFD in the place of bytes that are not UTF-8.
 std::string shown(const std::string& text);
 
+// The text in bold on a terminal; as it is elsewhere, or where NO_COLOR is set (no-color.org).
+std::string emphasised(const std::string& text);
+
+// Warns if others had the processors for a good part of the time: caches are then shared, too, and what
+// several threads need cannot be told from waiting.
+void warn_if_busy(std::chrono::duration<double> passed, double processor);
+
 // Whether the locale of the environment can print the block and line characters of Unicode.
 bool locale_is_utf8();
 

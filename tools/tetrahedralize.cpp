@@ -140,6 +140,8 @@ void add_tetrahedralize(CommandLine& line) {
     command.option("--max-tets", desc.max_tets, "Fail if there are more tetrahedra than this");
     command.flag("--binary", options->binary, "Write binary instead of text");
     command.flag("--json", options->json, "Print one JSON object");
+    command.examples(
+        "  vox tetrahedralize scan.stl -o scan.msh\n  vox tetrahedralize scan.stl -o scan.vtu --cell 0.01");
     command.runs([options] { run_tetrahedralize(*options); });
 }
 

@@ -365,8 +365,24 @@ class CommandLine(Files):
         self.assertEqual(found["counters"]["leaving_edges"], 3)
         self.assertGreater(found["profile"]["depth_ns"], 0)
         text = run("collide", self.one, self.one, "--offset", 0.1, 0.2, 0.3).stdout.decode()
-        self.assertRegex(text, r"1 constraint: 1 inside\n.*\n  inside +B 0  A 0 1 2 3; -0.23094, 0.577350 0.577350 0.577350, "
-                         r"surface\n")
+        self.assertRegex(text, r"\n1 contact of 1 vertex; the deepest is 0.2309 inside, at \(0.1, 0.2, 0.3\)\n1 constraint: 1 inside\n\n"
+                         r".*\n  inside +-0.23094  0.1 0.2 0.3 +0.5774 0.5774 0.5774 +surface +B 0 in A 0 1 2 3\n")
+        sunk = [(x / 2, y / 2, z / 2 + 0.1) for x, y, z in TWO_TETS]  # the deepest comes first
+        text = run("collide", self.two, self.write("sunk.msh", msh(sunk, TETS))).stdout.decode()
+        gaps = [float(line.split()[1]) for line in text.splitlines() if line.startswith("  inside")]
+        self.assertGreater(len(gaps), 2)
+        self.assertEqual(gaps, sorted(gaps))
+
+    def test_help_has_defaults_and_examples(self):
+        for command in ("demo", "info", "check", "suggest", "collide", "replay", "sweep", "tetrahedralize"):
+            text = run(command, "--help").stdout.decode()
+            self.assertRegex(text, rf"Examples:\n  vox {command}\b.*\n  vox {command}\b" if command != "demo" else r"Examples:\n  vox demo\n")
+        self.assertIn("--threads UINT=1", run("collide", "--help").stdout.decode())
+        self.assertIn("(default: paper)", run("generate", "man").stdout.decode().replace("\\-", "-"))
+
+    def test_suggest_says_for_whom(self):
+        self.assertIn("for the paper's algorithm (the default engine chooses its own: leave cell_size at 0)",
+                      run("suggest", self.two).stdout.decode().splitlines()[0])
 
     def test_collide_threads(self):
         serial, *others = [run_json("collide", self.two, self.one, "--offset", 0.1, 0.2, 0.3, "--threads", threads)
@@ -450,9 +466,11 @@ class CommandLine(Files):
         text = done.stdout.decode()
         self.assertEqual(done.returncode, 0)
         self.assertEqual(done.stderr, b"")
-        self.assertRegex(text, r"\n10 contacts\n")
-        self.assertEqual(len(re.findall(r"^  [AB] +\d+   [AB] +\d+$", text, re.M)), 2)
+        self.assertRegex(text, r"\n10 contacts of 10 vertices\n10 constraints: 10 inside\n")
+        self.assertEqual(len(re.findall(r"^  inside ", text, re.M)), 2)
         self.assertIn("and 8 more", text)
+        text = run("collide", self.two, self.two, "--limit", 2, "--no-depth").stdout.decode()
+        self.assertEqual(len(re.findall(r"^  [AB] +\d+   [AB] +\d+$", text, re.M)), 2)
 
     # ---- tetrahedralize ----
 

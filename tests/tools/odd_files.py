@@ -106,7 +106,7 @@ class OddFiles(Files):
         """Where a reader of the library's own refuses a file, it is not followed by what assimp thinks of it."""
         for name, text, reason in (("a.msh", "$MeshFormat\n9.9 0 8\n$EndMeshFormat\n", "version 9.9"),
                                    ("a.gltf", '{"asset":{"version":"1.0"}}', "version"),
-                                   ("a.off", "4OFF\n1 1 0\n", "OFF"), ("b.vtk", "# vtk DataFile Version 9.0\n", "version 9")):
+                                   ("a.off", "5OFF\n1 1 0\n", "OFF"), ("b.vtk", "# vtk DataFile Version 9.0\n", "version 9")):
             done = run("info", self.write(name, text))
             self.assertEqual(done.returncode, 1)
             self.assertIn(reason, done.stderr.decode())

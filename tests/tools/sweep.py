@@ -125,9 +125,13 @@ class Sweep(Files):
         self.assertAlmostEqual(other["distance"], far["distance"], delta=0.3)
 
     def test_text(self):
-        done = run("sweep", *BALL, "--rounds", 1)
+        done = run("sweep", *BALL, "--rounds", 1, "--svg", self.path("sweep.svg"))
         self.assertEqual((done.returncode, done.stderr), (0, b""))
         text = done.stdout.decode()
+        with open(self.path("sweep.svg"), encoding="utf-8") as file:
+            picture = file.read()
+        for words in "Time of detection over cell size", "mean edge", "suggested", "nearly as good":
+            self.assertIn(words, picture)
         for words in "in contact", "Best cell size", "At most 1 ms above it", "suggestion", "epsilon":
             self.assertIn(words, text)
 
