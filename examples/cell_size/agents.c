@@ -4,6 +4,7 @@
 #include "point_grid.h"
 
 #include <math.h>
+#include <string.h>
 #include <vox/vox_cell_size.h>
 
 enum { count = 20000 };
@@ -36,7 +37,8 @@ static double run(double cell_size, double* reads) {
     return 1e3 * seconds_since(start);
 }
 
-int main(void) {
+int main(int argc, char** argv) {
+    const int shows_times = argc > 1 && strcmp(argv[1], "times") == 0;
     uint32_t state = 1;
     const double radius = largest * cbrt(count / 0.7); /* of the spheroid */
     for (int i = 0; i < count;) {
@@ -72,7 +74,7 @@ int main(void) {
         if (i == 0) expected = touching;
         printf("%-26s %4.1f: %5.1f agents read by each%s\n", words[i], sides[i], reads,
                touching == expected ? "" : ", but neighbours are missed");
-        fprintf(stderr, "%.2f ms\n", least);
+        if (shows_times) printf("    %.2f ms\n", least);
     }
     printf("%.1f neighbours each\n", (double)(expected - count) / count);
     return 0;

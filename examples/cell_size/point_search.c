@@ -4,6 +4,7 @@
 #include "point_grid.h"
 
 #include <math.h>
+#include <string.h>
 #include <vox/vox_cell_size.h>
 
 enum { count = 200000, watchers = 4000, places = 24 };
@@ -58,7 +59,8 @@ static void fill(float (*out)[3], int n, uint32_t* state) {
     }
 }
 
-int main(void) {
+int main(int argc, char** argv) {
+    const int shows_times = argc > 1 && strcmp(argv[1], "times") == 0;
     uint32_t state = 1;
     fill(points, count, &state);
     fill(watching, watchers, &state);
@@ -85,8 +87,9 @@ int main(void) {
         const double seconds = least_of(sizes[i], &per_cell);
         if (i > 0 && seen != expected) return puts("others are seen"), 1;
         expected = seen;
-        fprintf(stderr, "%s%4.0f, %5.0f points per cell: %6.2f ms\n", i < 7 ? "" : "fitted ", sizes[i],
-                per_cell, 1e3 * seconds);
+        if (shows_times)
+            printf("%s%4.0f, %5.0f points per cell: %6.2f ms\n", i < 7 ? "" : "fitted ", sizes[i], per_cell,
+                   1e3 * seconds);
     }
     printf("fitted from three timings; each watcher sees %.0f others at every cell size\n",
            (double)expected / watchers);
