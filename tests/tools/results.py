@@ -154,7 +154,7 @@ class Results(Files):
             self.assertLess(impact["gap"], 0)
         self.check_drawing(out, found)
         self.assertRegex(run(*falling, "--moving", before).stdout.decode(),
-                         "2 constraints: 2 impact\n(.*\n){2}.* plane, at 0.583333333 of the way\n")
+                         r"2 constraints: 2 impact\n(.*\n)+.* plane +A 3 in B 1 2 3, at 0.583333333 of the way\n")
         self.assertEqual(run_json(*falling)["constraints"], [])
         done = run(*falling, "--moving", self.two)
         self.assertEqual((done.returncode, done.stdout), (1, b""))
