@@ -116,8 +116,8 @@ int main(int argc, char** argv) {
         response_ms[frame] = ms_since(start);
         if (frame >= warm_up) in_contact += found.count;
         if (frame % 30 == 29)
-            printf("frame %3d: %5" PRIu64 " contacts, %5" PRIu64 " constraints, %4" PRIu64 " pairs\n", frame + 1,
-                   contact_count(grid), found.count, found.pair_count);
+            printf("frame %3d: %5" PRIu64 " contacts, %5" PRIu64 " constraints, %4" PRIu64 " pairs\n",
+                   frame + 1, contact_count(grid), found.count, found.pair_count);
     }
     uint64_t hash = 0;
     must(vox_grid_get_hash(grid, &hash));

@@ -7,8 +7,8 @@
 
 enum { bodies = 300, side = 7, substeps = 8 };
 
-#define RADIUS 0.5           /* metres */
-#define PIT (0.52 * side)              /* half of its width */
+#define RADIUS 0.5              /* metres */
+#define PIT (0.52 * side)       /* half of its width */
 #define H (1.0 / 60 / substeps) /* seconds of a substep */
 #define GRAVITY 9.81
 #define FRICTION 0.4
@@ -78,8 +78,8 @@ static void insert_bodies(vox_grid* grid) {
     before = (double(*)[3])calloc(vertices, sizeof *before);
     v = (double(*)[3])calloc(vertices, sizeof *v);
     for (size_t b = 0; b < bodies; ++b) {
-        vox_mesh_desc desc = vox_mesh_desc_doubles(x[b * shape.vertex_count], shape.vertex_count, shape.tets,
-                                                   shape.tet_count);
+        vox_mesh_desc desc =
+            vox_mesh_desc_doubles(x[b * shape.vertex_count], shape.vertex_count, shape.tets, shape.tet_count);
         desc.user_data = b;
         vox_body id = VOX_NULL_BODY;
         must(vox_mesh_insert(grid, &desc, &id));

@@ -1,5 +1,5 @@
-// Surgery: a blunt instrument presses on tissue, a hand feels it through a proxy, a needle goes through it, and
-// a blade cuts it along a plane. Lengths are millimetres, and masses and stiffnesses 1, to keep it short.
+// Surgery: a blunt instrument presses on tissue, a hand feels it through a proxy, a needle goes through it,
+// and a blade cuts it along a plane. Lengths are millimetres, and masses and stiffnesses 1, to keep it short.
 #include "scenes/bodies.h"
 #include "scenes/solids.h"
 
@@ -82,9 +82,9 @@ vec push(const vox::grid& grid, vox_body body, tissue& t) {
     return felt;
 }
 
-// A haptic device: the hand may be inside the tissue, the proxy stays on its surface, and a spring between them is
-// felt. The proxy follows in small steps, so it leaves where it came in, however deep the hand is. Another thread
-// may do this a thousand times a second: a locator never changes.
+// A haptic device: the hand may be inside the tissue, the proxy stays on its surface, and a spring between
+// them is felt. The proxy follows in small steps, so it leaves where it came in, however deep the hand is.
+// Another thread may do this a thousand times a second: a locator never changes.
 void follow(const vox::locator& locator, const vec& hand, vec& proxy) {
     constexpr double most = 0.2;
     const vec way = hand - proxy;
@@ -93,9 +93,9 @@ void follow(const vox::locator& locator, const vec& hand, vec& proxy) {
     if (hit.distance < 0) proxy = {hit.position[0], hit.position[1], hit.position[2]};
 }
 
-// Cuts along x = plane, down to z = bottom. Facets between a tetrahedron on the left and one on the right open.
-// Around each vertex, tetrahedra that still hang together by facets stay together; each further part gets a copy of
-// the vertex. Returns the number of copies.
+// Cuts along x = plane, down to z = bottom. Facets between a tetrahedron on the left and one on the right
+// open. Around each vertex, tetrahedra that still hang together by facets stay together; each further part
+// gets a copy of the vertex. Returns the number of copies.
 std::size_t cut(vox::grid& grid, vox_body body, tissue& t, double plane, double bottom) {
     const auto is_left = [&](const tet& c) {
         return t.x[c[0]][0] + t.x[c[1]][0] + t.x[c[2]][0] + t.x[c[3]][0] < 4 * plane;
@@ -166,13 +166,15 @@ int main() try {
     desc.flags = VOX_GRID_CONSTRAINTS;
     vox::grid grid(desc);
     const vox_body body = grid.insert(t.x, t.tets);
-    const vox_body instrument = grid.insert(vox_mesh_desc_doubles(tip.positions, tip.vertex_count, tip.tets, tip.tet_count));
+    const vox_body instrument =
+        grid.insert(vox_mesh_desc_doubles(tip.positions, tip.vertex_count, tip.tets, tip.tet_count));
     std::printf("tissue of %zu tets, an instrument of %u\n", t.tets.size(), tip.tet_count);
 
     // The instrument is rigid: a transform moves it. Positions of the tissue are borrowed.
     vec felt{};
     const auto run = [&](int frames, double tip_height) {
-        grid.set_transform(instrument, {1, 0, 0, wide / 4, 0, 1, 0, deep / 2, 0, 0, 1, tip_height + tip_radius});
+        grid.set_transform(instrument,
+                           {1, 0, 0, wide / 4, 0, 1, 0, deep / 2, 0, 0, 1, tip_height + tip_radius});
         for (int frame = 0; frame < frames; ++frame) {
             grid.step();
             felt = push(grid, body, t);
@@ -181,7 +183,8 @@ int main() try {
     };
     for (double depth : {-1.0, 0.5, 1.0, 1.5}) {
         run(150, high - depth);
-        std::printf("tip %4.1f below the surface: %3zu contacts, force %.2f\n", depth, grid.contacts().size(), felt[2]);
+        std::printf("tip %4.1f below the surface: %3zu contacts, force %.2f\n", depth, grid.contacts().size(),
+                    felt[2]);
     }
     run(150, 2 * high); // away
 
@@ -206,7 +209,8 @@ int main() try {
         std::vector<double> at; // where a line along the tissue leaves one lip, and enters the other
         for (const vox_ray_hit& hit : locator.find_ray_hits(std::array{from}, std::array{to}))
             if (hit.t > 0.25 && hit.t < 0.75) at.push_back(wide * hit.t);
-        std::printf("cut: %zu vertices copied, the wound is %.2f wide\n", copies, at.empty() ? 0 : at.back() - at.front());
+        std::printf("cut: %zu vertices copied, the wound is %.2f wide\n", copies,
+                    at.empty() ? 0 : at.back() - at.front());
     }
     free_solid(&tip);
 } catch (const std::exception& error) {
