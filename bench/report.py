@@ -228,7 +228,7 @@ def headlines(scenes):
             f"thread; with constraints, depths included, {number(scene.ms(SUBJECT), 2)} ms.")
     best = scene.best_peer()
     if best:
-        text += (f" The fastest other library takes\n  {number(scene.times_faster(CONTACTS, best), 2)} times as long to find "
+        text += (f" The fastest other library, {best.split()[0]}, takes\n  {number(scene.times_faster(CONTACTS, best), 2)} times as long to find "
                  f"the same contacts.")
     return {"fast": text}
 
