@@ -12,12 +12,14 @@ DEMO = os.environ["VOX_DEMO"]
 
 def run_demo(*arguments):
     environment = {**os.environ, "LC_ALL": "C"}
-    return subprocess.run([DEMO, *arguments], capture_output=True, env=environment, timeout=600)
+    done = subprocess.run([DEMO, *arguments], capture_output=True, env=environment, timeout=600)
+    busy = b"vox: warning: the machine is busy"  # which it may say at any time
+    done.stderr = b"".join(line for line in done.stderr.splitlines(keepends=True) if not line.startswith(busy))
+    return done
 
 
 def without_times(text):
-    text = re.sub(rb" +[0-9.]+ ms", b" TIME ms", text)
-    return re.sub(rb"takes .* time, the fast engine .*%.*\. In", b"takes TIME. In", text)
+    return re.sub(rb" +[0-9.]+ ms", b" TIME ms", text)
 
 
 class Demo(unittest.TestCase):
