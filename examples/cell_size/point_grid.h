@@ -10,10 +10,10 @@
 typedef struct point_grid {
     double cell_size, low[3];
     int cells[3];
-    uint32_t* begin;      /* of each voxel, and one more */
-    float* sorted[3];     /* x, y, z of the points, voxel by voxel */
-    uint32_t* number_of;  /* of each sorted point */
-    double visits, reads; /* what queries did: voxels visited, points read */
+    uint32_t* begin;     /* of each voxel, and one more */
+    float* sorted[3];    /* x, y, z of the points, voxel by voxel */
+    uint32_t* number_of; /* of each sorted point */
+    double reads;        /* points that queries read */
 } point_grid;
 
 static inline int voxel_of(const point_grid* g, int axis, double x) {
@@ -26,7 +26,7 @@ static inline size_t row_of(const point_grid* g, int y, int z) {
 }
 
 static inline point_grid make_point_grid(float (*points)[3], uint32_t count, double cell_size) {
-    point_grid g = {cell_size, {0}, {0}, NULL, {NULL}, NULL, 0, 0};
+    point_grid g = {cell_size, {0}, {0}, NULL, {NULL}, NULL, 0};
     for (int axis = 0; axis < 3; ++axis) {
         double low = points[0][axis], high = low;
         for (uint32_t i = 1; i < count; ++i) {

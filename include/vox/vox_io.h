@@ -125,8 +125,8 @@ VOX_API vox_result vox_io_mesh_get_arrays(const vox_io_mesh* mesh, vox_io_mesh_v
  * Errors: INVALID_ARGUMENT (null, or a struct_size that does not reach to tet_count). */
 VOX_API vox_result vox_io_mesh_describe(const vox_io_mesh* mesh, vox_mesh_desc* desc);
 
-/* Makes a mesh from arrays (copied) on the C++ runtime's heap. Nothing is left out. Errors: INVALID_ARGUMENT, INVALID_MESH, NON_FINITE,
- * LIMIT (more than VOX_MAX_VERTICES or VOX_MAX_TETS), OUT_OF_MEMORY. */
+/* Makes a mesh from arrays (copied) on the C++ runtime's heap. Nothing is left out. Errors: INVALID_ARGUMENT,
+ * INVALID_MESH, NON_FINITE, LIMIT (more than VOX_MAX_VERTICES or VOX_MAX_TETS), OUT_OF_MEMORY. */
 VOX_API vox_result vox_io_mesh_create(const vox_io_mesh_view* arrays, vox_io_mesh** out_mesh);
 
 /* ---- diagnosis -------------------------------------------------------------------------------- */
