@@ -127,7 +127,7 @@ def contents(core_only, everything):
     """Every file of the drop: its name, and its bytes."""
     paths = ["include/vox", "adapters", "src", "cmake", "CMakeLists.txt", "LICENSE"]
     if everything:
-        paths += ["tools", "pyproject.toml", "bindings/python/CMakeLists.txt", "bindings/python/README.md", "bindings/python/src"]
+        paths += ["tools", "web/viewer", "pyproject.toml", "bindings/python/CMakeLists.txt", "bindings/python/README.md", "bindings/python/src"]
     left_out = "mpi" if everything else "dist|mpi" # the Python package has vox_dist
     names = [name for name in tracked(*paths) if not re.match(rf"src/({left_out})/|include/vox/vox_({left_out})", name)]
     if core_only:

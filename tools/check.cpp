@@ -1,6 +1,7 @@
 // vox check: whether the surface of a mesh passes through itself or lies on itself, and where.
 #include "body.hpp"
 #include "commands.hpp"
+#include "facets.hpp"
 #include "failure.hpp"
 #include "options.hpp"
 #include "output_file.hpp"
@@ -67,30 +68,9 @@ CheckedSurface surface_of(const Body& body) {
         const std::uint32_t* v = view.triangles + 3 * i;
         surface.triangles.push_back({lowest[v[0]], lowest[v[1]], lowest[v[2]]});
     }
-    // Facets sorted by their corners; a facet of a second tetrahedron is no surface.
-    struct Facet {
-        Triangle sorted, as_given;
-        std::uint32_t opposite;
-    };
-    std::vector<Facet> facets;
-    constexpr int corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-    for (std::uint64_t t = 0; t < view.tet_count; ++t) {
-        std::uint32_t v[4];
-        for (int i = 0; i < 4; ++i) v[i] = lowest[view.tets[4 * t + static_cast<std::uint64_t>(i)]];
-        for (int i = 0; i < 4; ++i) {
-            const Triangle facet{v[corners[i][0]], v[corners[i][1]], v[corners[i][2]]};
-            facets.push_back({facet, facet, v[i]});
-            std::sort(facets.back().sorted.begin(), facets.back().sorted.end());
-        }
-    }
-    std::stable_sort(facets.begin(), facets.end(),
-                     [](const Facet& x, const Facet& y) { return x.sorted < y.sorted; });
-    for (std::size_t first = 0, end; first < facets.size(); first = end) {
-        bool has_one_tet = true; // doubled ones count once
-        for (end = first; end < facets.size() && facets[end].sorted == facets[first].sorted; ++end)
-            has_one_tet &= facets[end].opposite == facets[first].opposite;
-        if (has_one_tet) surface.triangles.push_back(facets[first].as_given);
-    }
+    std::vector<std::uint32_t> tets(view.tets, view.tets + 4 * view.tet_count);
+    for (std::uint32_t& corner : tets) corner = lowest[corner];
+    for (const Triangle& facet : boundary_of(tets)) surface.triangles.push_back(facet);
     return surface;
 }
 

@@ -158,7 +158,7 @@ void bind_previous(vox_grid* grid, vox_body mesh, const Body& body, const Body& 
 void run_collide(const CollideOptions& options) {
     if (options.b.empty() && !options.self)
         throw WrongUsage("collide needs a second mesh, or --self for self-collision of the first");
-    if (!options.out.empty()) check_output(options.out, {".vtu", ".msh"});
+    if (!options.out.empty()) check_output(options.out, {".vtu", ".msh", ".html"});
     for (const std::string& path : {options.csv, options.save})
         if (!path.empty()) check_output(path);
     std::vector<Body> bodies;
@@ -244,14 +244,15 @@ void add_collide(CommandLine& line) {
     command.flag("--edges", options->edges, "Also find edges of one mesh through faces of the other");
     command
         .option("-o,--output", options->out,
-                "Write meshes, contacts and constraints to this file, .vtu or .msh")
+                "Write meshes, contacts and constraints to this file: .vtu, .msh, or .html to look at in a "
+                "browser")
         .shown_as("FILE");
     command.option("--csv", options->csv, "Write all constraints to this file, a line each").shown_as("FILE");
     command.option("--save", options->save, "Write a snapshot of the grid to this file, for vox replay")
         .shown_as("FILE");
     command.flag("--json", options->json, "Print one JSON object");
     command.examples(
-        "  vox collide bunny.msh cow.msh --offset 0.5 0 0\n  vox collide body.msh --self -o contacts.vtu");
+        "  vox collide bunny.msh cow.msh --offset 0.5 0 0\n  vox collide body.msh --self -o contacts.html");
     command.runs([options] { run_collide(*options); });
 }
 

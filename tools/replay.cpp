@@ -54,7 +54,7 @@ void check_replay_usage(const ReplayOptions& options) {
         throw WrongUsage(
             "--output: several snapshots make a series; expected a name that ends with .pvd, found " +
             options.out);
-    check_output(options.out, {".pvd", ".vtu", ".msh"});
+    check_output(options.out, {".pvd", ".vtu", ".msh", ".html"});
 }
 
 void run_replay(const ReplayOptions& options) {
@@ -115,7 +115,7 @@ void add_replay(CommandLine& line) {
     add_threads(command, options->grid);
     command
         .option("-o,--output", options->out,
-                "Write meshes, contacts and constraints: .vtu or .msh, or a series of snapshots, .pvd")
+                "Write meshes, contacts and constraints: .vtu, .msh or .html, or a series of snapshots, .pvd")
         .shown_as("FILE");
     command.flag("--json", options->json, "Print one JSON object");
     command.examples("  vox replay grid.vox\n  vox replay grid.vox --json");

@@ -3,6 +3,7 @@
 #include "failure.hpp"
 #include "output_file.hpp"
 #include "report.hpp"
+#include "view_file.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -29,7 +30,7 @@ vox_io_point_data data(const char* name, const std::vector<double>& values, std:
 } // namespace
 
 DrawnMesh drawn_mesh(const Body& body, vox_body id) {
-    DrawnMesh mesh{id, body.exact, {}, {}, {}};
+    DrawnMesh mesh{id, body.exact, {}, {}, {}, body.name};
     if (mesh.positions.empty()) mesh.positions.assign(body.positions.begin(), body.positions.end());
     mesh.tets.assign(body.view.tets, body.view.tets + 4 * body.view.tet_count);
     if (mesh.tets.empty())
@@ -38,6 +39,7 @@ DrawnMesh drawn_mesh(const Body& body, vox_body id) {
 }
 
 void write_results(const std::string& path, std::span<const DrawnMesh> meshes, const vox_grid* grid) {
+    if (has_ending(path, ".html")) return write_view(path, meshes, grid);
     std::vector<double> positions;
     std::vector<std::uint32_t> triangles, tets;
     std::vector<Start> starts;

@@ -18,11 +18,13 @@ struct DrawnMesh {
     std::vector<std::uint32_t> tets;      // 4 corners each
     std::vector<std::uint32_t> numbers;   // of tets in the grid; empty: 0, 1, 2, ...
     std::vector<std::uint32_t> triangles; // 3 corners each
+    std::string name;
 };
 
 DrawnMesh drawn_mesh(const Body& body, vox_body id);
 
-// Writes the meshes one after the other to a .vtu or .msh file, with the constraints found last.
+// A name that ends with .html: a page to look at (view_file.hpp). Else writes the meshes one after the other
+// to a .vtu or .msh file, with the constraints found last.
 // For each vertex: `mesh` (index in `meshes`), `vertex` (its number there), `contacts` (tetrahedra that it is
 // in), and `kind`, `state` (-1: none), `gap` and `normal` of the constraint with the least gap that has it
 // among the vertices of body_a. For each cell: `mesh`, `tet` (its number; -1: a triangle), `contacts`

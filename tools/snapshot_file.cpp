@@ -111,6 +111,7 @@ std::vector<DrawnMesh> drawn_meshes(const std::vector<unsigned char>& bytes) {
         if (name == "MESH") {
             DrawnMesh mesh;
             mesh.id = chunk.next<std::uint32_t>();
+            mesh.name = "body " + std::to_string(mesh.id);
             const auto bits = chunk.next<std::uint32_t>();
             (void)chunk.next<std::uint64_t>(); // user data
             const auto vertices = static_cast<std::size_t>(chunk.next<std::uint64_t>());

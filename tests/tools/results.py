@@ -1,6 +1,9 @@
 """Files of results: collide -o, --csv and --no-depth, and the series of replay -o."""
 
+import base64
 import csv
+import html.parser
+import json
 import os
 import struct
 import unittest
@@ -12,6 +15,29 @@ from vox import Files, run, run_json
 
 KINDS = ["inside", "edge", "proximity", "impact"]
 STATES = ["surface", "propagated", "closest", "ambiguous", "touching", "unknown", "plane"]
+
+
+class Page(html.parser.HTMLParser):
+    """What `collide -o x.html` writes: its title, its data, and whatever a browser would load."""
+
+    def __init__(self, path):
+        super().__init__()
+        self.inside, self.texts, self.loads = "", {}, []
+        with open(path, encoding="utf-8") as file:
+            self.feed(file.read())
+        self.data = json.loads(self.texts["application/json"])
+
+    def handle_starttag(self, tag, attributes):
+        found = dict(attributes)
+        self.inside = found.get("type", tag)
+        self.loads += [value for key, value in found.items() if key in ("src", "href") and value != "data:,"]
+
+    def handle_data(self, data):
+        self.texts[self.inside] = self.texts.get(self.inside, "") + data
+
+    def numbers(self, text, kind):
+        data = base64.b64decode(text, validate=True)
+        return struct.unpack(f"<{len(data) // 4}{kind}", data)
 
 
 class Results(Files):
@@ -82,6 +108,34 @@ class Results(Files):
         self.assertEqual(arrays["CellData", "mesh"], [1, 1, 0])  # triangles come first
         self.assertEqual(arrays["CellData", "tet"], [-1, -1, 0])
         return arrays
+
+    def test_page(self):
+        out = self.path("out.html")
+        odd = self.write("<!--script> &amp;.msh", msh(TWO_TETS[:4], TETS[:1]))
+        for arguments, triangles in ((self.placed, (6, 4)), (["collide", odd, self.two, "--offset", 1e7, 0, 0, "--double"], (4, 6)),
+                                     (["collide", self.two, "--self"], (6,)), ([*self.placed, "--no-depth"], (6, 4)),
+                                     (["collide", self.one, self.surface, "--offset", 0.1, 0.1, 0.1], (4, 2))):
+            found = run_json(*arguments, "-o", out)
+            page = Page(out)
+            self.assertEqual(page.loads, [])
+            self.assertNotIn("{{", page.texts["title"] + page.texts["module"])
+            self.assertEqual([body["name"] for body in page.data["bodies"]], [os.path.basename(mesh["file"]) for mesh in found["meshes"]])
+            self.assertIn(page.data["bodies"][0]["name"], page.texts["title"])
+            for body, count in zip(page.data["bodies"], triangles):
+                corners = page.numbers(body["triangles"], "I")
+                self.assertEqual(len(corners), 3 * count)
+                self.assertEqual(set(corners), set(range(len(page.numbers(body["positions"], "f")) // 3)))
+            contacts = page.numbers(page.data["contacts"], "f")
+            self.assertEqual([page.data["contact_count"], len(contacts)], [found["contact_count"], 6 * found["contact_count"]])
+            gaps = {(c["body_a"], c["vertices"][0], c["body_b"]): c["gap"] for c in found["constraints"]}
+            for i, contact in enumerate(found["contacts"]):
+                x, y, z = contacts[6 * i + 3:6 * i + 6]
+                self.assertAlmostEqual((x * x + y * y + z * z) ** .5, -gaps[contact["body_a"], contact["vertex"], contact["body_b"]], 6)
+        middle = page.data["middle"]  # of the last run: corners from 0 to 1, and from 0.1 to 1.1
+        for x in middle:
+            self.assertAlmostEqual(x, 0.55, 6)
+        positions = page.numbers(page.data["bodies"][1]["positions"], "f")
+        self.assertAlmostEqual(min(positions) + middle[0], 0.1, 6)
 
     def test_gmsh(self):
         out = self.path("out.msh")
@@ -217,7 +271,7 @@ class Results(Files):
 
     def test_refused(self):
         for code, words, *arguments in (
-            (1, "out.stl: expected a name that ends with .vtu or .msh", *self.placed, "-o", self.path("out.stl")),
+            (1, "out.stl: expected a name that ends with .vtu or .msh or .html", *self.placed, "-o", self.path("out.stl")),
             (1, "cannot be written: No such file", *self.placed, "-o", self.path("no/out.vtu")),
             (1, "cannot be written: No such file", *self.placed, "--csv", self.path("no/out.csv")),
             (1, "cannot be written: Is a directory", *self.placed, "--csv", self.folder.name),

@@ -1,52 +1,6 @@
 // A body as it is drawn: smooth where its surface is smooth, with sharp edges, thin lines along all edges, and cut faces of another colour.
 import * as THREE from "three";
-
-const SMOOTH = Math.cos(1.1); // faces that meet at less than this angle share a normal
-
-/** Corners for drawing: one for each vertex and each smooth piece of the surface around it; and edges between them. */
-function cornersOf({ triangles, uncut }, positions) {
-  const normals = faceNormals(triangles, positions);
-  const pieces = new Map(); // of each vertex: { corner, normal, cut }
-  const vertices = [];
-  const cut = [];
-  const index = triangles.map((vertex, i) => {
-    const face = Math.floor(i / 3);
-    const normal = normals.subarray(3 * face, 3 * face + 3);
-    const isCut = face >= uncut;
-    const around = pieces.get(vertex) ?? pieces.set(vertex, []).get(vertex);
-    let piece = around.find((p) => p.cut === isCut && (isCut || (p.normal[0] * normal[0] + p.normal[1] * normal[1] + p.normal[2] * normal[2]) > SMOOTH * Math.hypot(...p.normal)));
-    if (!piece) {
-      piece = { corner: vertices.length, normal: [0, 0, 0], cut: isCut };
-      around.push(piece);
-      vertices.push(vertex);
-      cut.push(isCut);
-    }
-    for (let c = 0; c < 3; ++c) piece.normal[c] += normal[c];
-    return piece.corner;
-  });
-  const edges = new Map();
-  for (let i = 0; i < triangles.length; i += 3)
-    for (let k = 0; k < 3; ++k) {
-      const [a, b] = [i + k, i + ((k + 1) % 3)];
-      const key = Math.min(triangles[a], triangles[b]) * 2 ** 26 + Math.max(triangles[a], triangles[b]);
-      edges.set(key, [index[a], index[b]]);
-    }
-  return { vertices: Uint32Array.from(vertices), cut, index, edges: [...edges.values()].flat() };
-}
-
-/** Unit normals of triangles. */
-function faceNormals(triangles, p, out = new Float32Array(triangles.length)) {
-  for (let i = 0; i < triangles.length; i += 3) {
-    const [a, b, c] = [3 * triangles[i], 3 * triangles[i + 1], 3 * triangles[i + 2]];
-    const [ux, uy, uz, vx, vy, vz] = [p[b] - p[a], p[b + 1] - p[a + 1], p[b + 2] - p[a + 2], p[c] - p[a], p[c + 1] - p[a + 1], p[c + 2] - p[a + 2]];
-    const [x, y, z] = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
-    const length = Math.sqrt(x * x + y * y + z * z) || 1;
-    out[i] = x / length;
-    out[i + 1] = y / length;
-    out[i + 2] = z / length;
-  }
-  return out;
-}
+import { cornerNormals, cornersOf } from "../viewer/look.js";
 
 export class BodyMesh {
   /** `positions`: of its vertices, as they are now. */
@@ -81,12 +35,7 @@ export class BodyMesh {
     const [at, normals] = [this.position.array, this.normal.array];
     for (let i = 0; i < vertices.length; ++i)
       for (let c = 0; c < 3; ++c) at[3 * i + c] = positions[3 * vertices[i] + c];
-    faceNormals(index, at, faces);
-    normals.fill(0);
-    for (let i = 0; i < index.length; ++i) {
-      const face = 3 * Math.floor(i / 3);
-      for (let c = 0; c < 3; ++c) normals[3 * index[i] + c] += faces[face + c];
-    }
+    cornerNormals(index, at, faces, normals);
     this.position.needsUpdate = this.normal.needsUpdate = true;
     this.mesh.geometry.boundingSphere = null; // for rays
   }

@@ -1,17 +1,13 @@
 // What is drawn of the scene, by three.js, and where the pointer is in it.
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { COLOURS, CONTACT, PALETTE, contactDots } from "../viewer/look.js";
 import { BodyMesh } from "./body.js";
 import { FIXED } from "./scene.js";
 
-const PALETTE = [0x3d8bd4, 0xf08a3c, 0x4fae62, 0xc069b8, 0xe0b93a, 0x43b3a6, 0xe06666, 0x8b7fe0];
 const RING = 0x8d99a6;
-const COLOURS = {
-  light: { sky: 0xdfe6ed, air: 0xf2f7ff, ground: 0xc9d2db, line: 0x2a4560 },
-  dark: { sky: 0x161b21, air: 0xb8cbe2, ground: 0x46525e, line: 0xb4d0ee },
-};
 const MOST_CELLS = 4000; // that are drawn
-const CONTACT = 0xe3122f;
+const DEEP = 0.06; // what counts as a deep contact in a scene of this size
 
 /** The ground: cells of the chosen size, as thin lines that fade towards the horizon. */
 const groundLines = {
@@ -23,24 +19,6 @@ const groundLines = {
       float line = 1.0 - min(min(near.x, near.y), 1.0);
       float fade = smoothstep(9.0, 3.0, length(at)) * smoothstep(0.5, 0.15, max(width.x, width.y));
       gl_FragColor = vec4(color, strength * line * fade);
-    }`,
-};
-
-/** A contact: a round dot with a white rim, larger where it is deeper. */
-const contactDots = {
-  vertexShader: `attribute float depth; uniform float scale; varying float shown;
-    void main() {
-      gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
-      float part = clamp(depth / 0.06, 0.0, 1.0);
-      shown = mix(0.55, 1.0, part);
-      gl_PointSize = scale * mix(4.5, 15.0, sqrt(part));
-    }`,
-  fragmentShader: `uniform vec3 color; varying float shown;
-    void main() {
-      float far = 2.0 * length(gl_PointCoord - 0.5);
-      if (far > 1.0) discard;
-      vec3 seen = mix(color, vec3(1.0), smoothstep(0.58, 0.7, far));
-      gl_FragColor = vec4(seen, shown * smoothstep(1.0, 0.85, far));
     }`,
 };
 
@@ -151,7 +129,7 @@ export class View {
     this.#windows = new Changing(this.#scene, THREE.LineSegments, new THREE.LineBasicMaterial({ color: 0xd9803f }));
     this.#arrows = new Changing(this.#scene, THREE.LineSegments, new THREE.LineBasicMaterial({ color: CONTACT, depthTest: false, transparent: true }));
     this.#dots = new Changing(this.#scene, THREE.Points, new THREE.ShaderMaterial({
-      ...contactDots, transparent: true, depthTest: false, uniforms: { color: { value: new THREE.Color(CONTACT) }, scale: { value: renderer.getPixelRatio() } },
+      ...contactDots, transparent: true, depthTest: false, uniforms: { color: { value: new THREE.Color(CONTACT) }, scale: { value: renderer.getPixelRatio() }, full: { value: DEEP } },
     }));
     for (const changing of [this.#cells, this.#tiles, this.#windows, this.#arrows, this.#dots]) changing.hide();
     new ResizeObserver(() => this.#resize()).observe(canvas);

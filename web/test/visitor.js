@@ -8,6 +8,8 @@ import path from "node:path";
 import { after, before } from "node:test";
 import { launch, serve } from "./browser.js";
 
+export { cube } from "./browser.js";
+
 /** For files of these tests; goes with them. */
 export const folder = mkdtempSync(path.join(tmpdir(), "playground-"));
 let server;
@@ -83,10 +85,6 @@ export const overABody = (page) =>
 
 /** One body of each kind, and 200 frames. */
 export const scene = [...[0, 1, 2, 3, 4].map((kind) => `drop ${kind} 1000`), "steps 200"];
-
-// A cube of 2 by 2 by 2 as a surface.
-export const cube = ["v -1 -1 -1", "v 1 -1 -1", "v 1 1 -1", "v -1 1 -1", "v -1 -1 1", "v 1 -1 1", "v 1 1 1", "v -1 1 1",
-  ...["1 4 3", "1 3 2", "5 6 7", "5 7 8", "1 2 6", "1 6 5", "2 3 7", "2 7 6", "3 4 8", "3 8 7", "4 1 5", "4 5 8"].map((f) => `f ${f}`), ""].join("\n");
 
 export const dropFile = (page, name, text) =>
   page.evaluate(([n, t]) => {
