@@ -75,6 +75,31 @@ std::vector<double> round_sizes(const vox_cell_size_result& c) {
     return sizes;
 }
 
+// The distance of at most eight numbers 1, 2, 3, ..., 2, 4, 6, ... or 5, 10, 15, ... along an axis up to
+// `last`.
+double tick_step(double last) {
+    const double least = last / 8, power = std::pow(10.0, std::floor(std::log10(least)));
+    for (const double digit : {1.0, 2.0, 5.0})
+        if (digit * power >= least) return digit * power;
+    return 10 * power;
+}
+
+// The costs that the axis shows, with a line each.
+void add_costs(std::string& text, const Axes& axes, const CurveWords& words) {
+    add(text, "<text transform=\"translate(20 %g) rotate(-90)\" text-anchor=\"middle\">",
+        (above + height - below) / 2);
+    text += xml_text(words.axis) + "</text>\n";
+    const double unit = words.unit > 0 ? words.unit : axes.least();
+    const double last = top * axes.least() / unit, step = words.unit > 0 ? tick_step(last) : 1;
+    for (int i = 0; i * step <= last; ++i) {
+        const double y = axes.y(i * step * unit);
+        add(text, "<line x1=\"%g\" y1=\"%.2f\" x2=\"%g\" y2=\"%.2f\" class=\"line\"/>\n", left, y,
+            width - right, y);
+        add(text, "<text x=\"%g\" y=\"%.2f\" text-anchor=\"end\">%.6g%s</text>\n", left - 8, y + 4, i * step,
+            words.unit > 0 ? "" : "&#215;");
+    }
+}
+
 // What each rule costs: a label to a row, inward, the outermost first, so that hardly a line crosses a label.
 void add_rules(std::string& text, const Axes& axes, std::span<const vox_cell_size_rule> rules) {
     constexpr double middle = (left + width - right) / 2, row = 18;
@@ -128,18 +153,9 @@ std::string curve_svg(const vox_cell_size_result& c, const CurveWords& words) {
     add(text, "<text x=\"%g\" y=\"24\" font-size=\"17\">%s</text>\n", left, xml_text(words.title).c_str());
     add(text, "<text x=\"%g\" y=\"46\" class=\"dim\">", left);
     text += xml_text(words.below) + "</text>\n";
-    add(text,
-        "<text transform=\"translate(20 %g) rotate(-90)\" text-anchor=\"middle\">cost, in units of the "
-        "least</text>\n",
-        (above + floor_y) / 2);
     add(text, "<rect x=\"%.2f\" y=\"%g\" width=\"%.2f\" height=\"%.2f\" class=\"zone\"/>\n",
         axes.x(c.zone_min), above, axes.x(c.zone_max) - axes.x(c.zone_min), floor_y - above);
-    for (int times = 0; times <= static_cast<int>(top); ++times) {
-        const double y = axes.y(times * axes.least());
-        add(text, "<line x1=\"%g\" y1=\"%.2f\" x2=\"%g\" y2=\"%.2f\" class=\"line\"/>\n", left, y,
-            width - right, y);
-        add(text, "<text x=\"%g\" y=\"%.2f\" text-anchor=\"end\">%d&#215;</text>\n", left - 8, y + 4, times);
-    }
+    add_costs(text, axes, words);
     for (const double size : round_sizes(c)) {
         add(text, "<line x1=\"%.2f\" y1=\"%.2f\" x2=\"%.2f\" y2=\"%.2f\" class=\"line\"/>\n", axes.x(size),
             floor_y, axes.x(size), floor_y + 5);

@@ -10,6 +10,8 @@ namespace tool {
 
 struct CurveWords {
     std::string title, below; // the second one says what costs
+    std::string axis = "cost, in units of the least";
+    double unit = 0; // of the numbers along that axis, in costs of the curve; 0: the least cost
 };
 
 // The text of an SVG file, with dots for the timings of the result.

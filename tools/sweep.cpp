@@ -386,7 +386,8 @@ std::string sweep_svg(const Sweep& sweep) {
     std::snprintf(best, sizeof best, "; best %.4g ms at n = %.4g, fitted", fit.time * 1e-6,
                   sweep.world / fit.cell_size);
     return curve_svg(drawn, {"Time of detection over cell size",
-                             short_names({sweep.bodies.front().name, sweep.bodies.back().name}) + best});
+                             short_names({sweep.bodies.front().name, sweep.bodies.back().name}) + best,
+                             "time of detection in a step, ms", 1e6});
 }
 
 // ---- the command ------------------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 
 import csv
 import os
+import re
 import signal
 import subprocess
 import time
@@ -130,8 +131,15 @@ class Sweep(Files):
         text = done.stdout.decode()
         with open(self.path("sweep.svg"), encoding="utf-8") as file:
             picture = file.read()
-        for words in "Time of detection over cell size", "mean edge", "suggested", "nearly as good":
+        for words in "Time of detection over cell size", "mean edge", "suggested", "nearly as good", ">time of detection in a step, ms<":
             self.assertIn(words, picture)
+        # The numbers along that axis are milliseconds: from them, the best size's dot is at the time that the text says.
+        ticks = [(float(y) - 4, float(ms)) for y, ms in re.findall(r'y="([\d.]+)" text-anchor="end">([\d.]+)<', picture)]
+        self.assertTrue(4 <= len(ticks) <= 9, ticks)
+        (low, first), (high, last) = ticks[0], ticks[-1]
+        dot = float(re.search(r'cy="([\d.]+)" r="6" class="best"', picture)[1])
+        best = float(re.search(r"best ([\d.e+-]+) ms at n", picture)[1])
+        self.assertAlmostEqual(first + (dot - low) / (high - low) * (last - first), best, delta=0.01 * best)
         for words in "in contact", "Best cell size", "At most 1 ms above it", "suggestion", "epsilon":
             self.assertIn(words, text)
 
