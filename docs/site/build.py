@@ -45,6 +45,7 @@ NAVIGATION = [
             "docs/mistakes.md",
             "docs/faq.md",
             "docs/glossary.md",
+            "docs/gallery.md",
             {"All pages": "docs/README.md"},
             {"The README": "README.md"},
         ]
@@ -67,6 +68,8 @@ NAVIGATION = [
             "docs/agents.md",
             "docs/point-search.md",
             "docs/sim.md",
+            "docs/threads.md",
+            "docs/memory.md",
             "docs/snapshot.md",
             "docs/distributed.md",
         ]
