@@ -116,7 +116,7 @@ export declare const DepthMethod: Readonly<{
   /** smooth along the surface; neighbouring vertices leave on the same side: for response (Heidelberger et al. 2004) */
   CONSISTENT: 0;
   /**
-   * to the closest point of the surface, with the vertices of its face in place of those of the tetrahedron: for finite
+   * to the closest point of the surface, with the vertices of its face in place of the tetrahedron's: for finite
    * elements, pictures, reports
    */
   CLOSEST: 1;

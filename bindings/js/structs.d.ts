@@ -59,7 +59,7 @@ export interface FilterColumns {
 /**
  * Vertex `vertex` of body_a lies in the closed tetrahedron `tet` of body_b and is not one of its corners. This is
  * decided exactly. For each vertex and body_b there is a contact for every tetrahedron that has the vertex in its
- * interior; if there is none, there is one for the lowest tetrahedron that has it on its boundary. A tetrahedron of
+ * interior. If there is none, there is one for the lowest tetrahedron that has it on its boundary. A tetrahedron of
  * zero volume contains nothing.
  */
 export interface Contact {
@@ -108,14 +108,14 @@ export interface PairColumns {
 
 /**
  * A point of body_a and a point of body_b that must not pass through each other. Each is a weighted sum of vertices.
- * All vertices are in one list: first those of body_a, whose weights add up to 1; then those of body_b, whose weights
- * are negative and add up to -1. When vertex i is at x[i], gap = offset + dot(normal, sum of weights[i] * x[i])
- * (vox_constraint_gap) is negative while the two overlap. Its gradient for vertex i is weights[i] * normal, so a solver
- * pushes vertex i in that direction, whatever the kind. With velocities in place of x, the sum is the velocity of the
- * point of body_a relative to that of body_b, for damping and friction. kind vertices of body_a vertices of body_b gap
- * in the step INSIDE the vertex the tetrahedron that contains it minus the depth EDGE the edge the face minus the depth
- * of its part inside, from the middle of that part PROXIMITY the vertex the face with the closest point the distance
- * IMPACT the vertex the face that it met first minus the distance behind its plane
+ * All vertices are in one list: first the vertices of body_a, whose weights add up to 1; then the vertices of body_b,
+ * whose weights are negative and add up to -1. When vertex i is at x[i], gap = offset + dot(normal, sum of weights[i] *
+ * x[i]) (vox_constraint_gap) is negative while the two overlap. Its gradient for vertex i is weights[i] * normal, so a
+ * solver pushes vertex i in that direction, whatever the kind. With velocities in place of x, the sum is the velocity
+ * of the point of body_a relative to the point of body_b, for damping and friction. kind vertices of body_a vertices of
+ * body_b gap in the step INSIDE the vertex the tetrahedron that contains it minus the depth EDGE the edge the face
+ * minus the depth of its part inside, from the middle of that part PROXIMITY the vertex the face with the closest point
+ * the distance IMPACT the vertex the face that it met first minus the distance behind its plane
  */
 export interface Constraint {
   bodyA: number;
@@ -128,7 +128,7 @@ export interface Constraint {
   count: number;
   /** those beyond `count` are 0, and so are their weights */
   vertices: number[];
-  /** tetrahedron of body_b: the lowest that contains the vertex, or the one behind the face */
+  /** tetrahedron of body_b: the lowest that contains the vertex; with a face, the tetrahedron behind it */
   elementB: number;
   weights: number[];
   /** a unit vector out of body_b, the way for body_a */
@@ -207,7 +207,7 @@ export interface GridInfo {
   flags: number;
   /** counts up when an epoch ends (see Ownership above) */
   epoch: number;
-  /** the one that was set, or else the one used last; 0 before the first step */
+  /** as it was set, or else as it was used last; 0 before the first step */
   cellSize: number;
   margin: number;
   /** held now, without the caller's arrays */
@@ -248,7 +248,7 @@ export interface QueryDesc {
   flags: number;
   /** only bodies whose category had a bit in common with it; 0: all */
   mask: bigint;
-  /** not this body, e.g. the one that asks; an id that the locator does not have excludes none */
+  /** not this body, e.g. the asking body; an id that the locator does not have excludes none */
   excluded: number;
   /** vox_locator_find_closest: no further than this, in the caller's unit; 0: any distance */
   maxDistance: number;
@@ -496,7 +496,7 @@ export interface CellSizeDesc {
   zoneLoss: number;
   /** PAPER: the share of tetrahedra without a contact, in (0, 1); 0: 0.99 */
   pNc: number;
-  /** PAPER: r, the cost of a particle test divided by that of a cell visit; 0: 5 */
+  /** PAPER: r, the cost of a particle test divided by the cost of a cell visit; 0: 5 */
   costRatio: number;
   /** for cells_per_axis; 0: the longest side of the box of all vertices */
   worldEdge: number;
@@ -565,7 +565,7 @@ export interface TuneDesc {
   /** the range of cell sizes to try; both 0: from 1/8 to 8 times the first */
   min: number;
   max: number;
-  /** the cell size to begin with; 0: the one that vox_foreign_grid_suggest gives */
+  /** the cell size to begin with; 0: as vox_foreign_grid_suggest says */
   first: number;
   /** stop when the expected loss is below this; 0: 0.02 */
   wantedLoss: number;

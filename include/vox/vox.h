@@ -297,7 +297,7 @@ VOX_API vox_result vox_mesh_insert(vox_grid* grid, const vox_mesh_desc* desc, vo
 /* Removes a body. The results of the last step stay as they are; the next step ends the body's pairs. */
 VOX_API vox_result vox_body_remove(vox_grid* grid, vox_body body);
 
-/* Makes a mesh borrow another array of positions, one for each vertex, in place of the one that it borrowed or owned.
+/* Makes a mesh borrow another array of positions, one for each vertex, in place of its present array.
  * There is no need to bind the same array again after writing to it. Errors: INVALID_ARGUMENT (e.g. another count). */
 VOX_API vox_result vox_mesh_bind_positions(vox_grid* grid, vox_body body, const vox_positions* positions);
 
@@ -323,7 +323,7 @@ static inline vox_result vox_mesh_bind_doubles(vox_grid* grid, vox_body body, co
  * task system that broke its rules), BUDGET, OUT_OF_MEMORY. vox_grid_get_failure names the body. */
 VOX_API vox_result vox_grid_step(vox_grid* grid);
 
-/* Steps many different grids, several at a time: for many small scenes. worker_count and `tasks` are those of
+/* Steps many different grids, several at a time: for many small scenes. worker_count and `tasks` are as in
  * vox_grid_desc; each grid is stepped by one thread and should have a worker_count of 0 itself. If a grid fails, the
  * others are stepped nevertheless; `results` receives the result of each. Returns the first failure, whose text says
  * which grid.
@@ -335,7 +335,7 @@ VOX_API vox_result vox_grids_step(vox_grid* const* grids, uint64_t count, uint32
 
 /* Vertex `vertex` of body_a lies in the closed tetrahedron `tet` of body_b and is not one of its corners. This is
  * decided exactly. For each vertex and body_b there is a contact for every tetrahedron that has the vertex in its
- * interior; if there is none, there is one for the lowest tetrahedron that has it on its boundary. A tetrahedron of
+ * interior. If there is none, there is one for the lowest tetrahedron that has it on its boundary. A tetrahedron of
  * zero volume contains nothing. */
 typedef struct vox_contact {
     vox_body body_a;
@@ -421,14 +421,14 @@ typedef enum vox_depth_state {
 #define VOX_STENCIL_CAPACITY 5u /* most vertices of a constraint */
 
 /* A point of body_a and a point of body_b that must not pass through each other. Each is a weighted sum of vertices.
- * All vertices are in one list: first those of body_a, whose weights add up to 1; then those of body_b, whose weights
- * are negative and add up to -1. When vertex i is at x[i],
+ * All vertices are in one list: first the vertices of body_a, whose weights add up to 1; then the vertices of body_b,
+ * whose weights are negative and add up to -1. When vertex i is at x[i],
  *
  *     gap = offset + dot(normal, sum of weights[i] * x[i])        (vox_constraint_gap)
  *
  * is negative while the two overlap. Its gradient for vertex i is weights[i] * normal, so a solver pushes vertex i in
  * that direction, whatever the kind. With velocities in place of x, the sum is the velocity of the point of body_a
- * relative to that of body_b, for damping and friction.
+ * relative to the point of body_b, for damping and friction.
  *
  *     kind        vertices of body_a    vertices of body_b                        gap in the step
  *     INSIDE      the vertex            the tetrahedron that contains it          minus the depth
@@ -445,8 +445,8 @@ typedef struct vox_constraint {
     uint32_t count_a;                        /* how many vertices of body_a */
     uint32_t count;                          /* how many vertices in all */
     uint32_t vertices[VOX_STENCIL_CAPACITY]; /* those beyond `count` are 0, and so are their weights */
-    uint32_t element_b;                      /* tetrahedron of body_b: the lowest that contains the vertex, or the one
-                                                behind the face */
+    uint32_t element_b;                      /* tetrahedron of body_b: the lowest that contains the vertex; with a
+                                                face, the tetrahedron behind it */
     double weights[VOX_STENCIL_CAPACITY];
     double normal[3]; /* a unit vector out of body_b, the way for body_a */
     double gap;
@@ -478,7 +478,7 @@ typedef enum vox_depth_method {
     VOX_DEPTH_METHOD_CONSISTENT = 0, /* smooth along the surface; neighbouring vertices leave on the same side: for
                                         response (Heidelberger et al. 2004) */
     VOX_DEPTH_METHOD_CLOSEST = 1,    /* to the closest point of the surface, with the vertices of its face in place of
-                                        those of the tetrahedron: for finite elements, pictures, reports */
+                                        the tetrahedron's: for finite elements, pictures, reports */
     VOX_DEPTH_METHOD_NONE = 2        /* none: vertices, weights and position alone. Quick */
 } vox_depth_method;
 
@@ -499,8 +499,8 @@ static inline vox_constraint_desc vox_default_constraint_desc(void) {
     return desc;
 }
 
-/* Constraints, sorted by pair, then by kind, body_a and vertices, those of a face in ascending order. Those of pair p
- * of vox_grid_get_pairs are data[pair_offsets[p]] to data[pair_offsets[p + 1] - 1]. The arrays live until the end of
+/* Constraints, sorted by pair, then by kind, body_a and vertices; the vertices of a face ascend. Pair p of
+ * vox_grid_get_pairs has data[pair_offsets[p]] to data[pair_offsets[p + 1] - 1]. The arrays live until the end of
  * the epoch, or until constraints are found again. */
 typedef struct vox_constraint_view {
     const vox_constraint* data;
@@ -510,8 +510,8 @@ typedef struct vox_constraint_view {
 } vox_constraint_view;
 
 /* Finds the constraints of the last step. This replaces constraints that were found before. With VOX_GRID_CONSTRAINTS
- * every step does so itself. Call it before anything moves: positions must be those of the step, and no body of a
- * pair may have been removed or edited. Constraints between bodies at rest are carried over.
+ * every step does so itself. Call it before anything moves: positions must be as they were in the step, and no body of
+ * a pair may have been removed or edited. Constraints between bodies at rest are carried over.
  * Errors: INVALID_STATE (no step yet; a body was removed or edited), INVALID_ARGUMENT, NON_FINITE, LIMIT, BUDGET,
  * OUT_OF_MEMORY. */
 VOX_API vox_result vox_grid_find_constraints(vox_grid* grid, VOX_OPTIONAL const vox_constraint_desc* desc);
@@ -614,7 +614,7 @@ typedef struct vox_grid_info {
     uint32_t struct_size;
     uint32_t flags;          /* vox_grid_flags */
     uint64_t epoch;          /* counts up when an epoch ends (see Ownership above) */
-    double cell_size;        /* the one that was set, or else the one used last; 0 before the first step */
+    double cell_size;        /* as it was set, or else as it was used last; 0 before the first step */
     double margin;
     uint64_t bytes;          /* held now, without the caller's arrays */
     uint64_t peak_bytes;
@@ -667,7 +667,7 @@ VOX_API vox_result vox_grid_get_failure(const vox_grid* grid, uint32_t index, vo
  * Errors of all: INVALID_ARGUMENT (e.g. an index that does not exist or was removed), INVALID_MESH, LIMIT, BUDGET,
  * OUT_OF_MEMORY. */
 
-/* Replaces vertices, tetrahedra and positions by those of desc. Id, user data, filter, transform and disabled pairs
+/* Replaces vertices, tetrahedra and positions by what desc has. Id, user data, filter, transform and disabled pairs
  * stay. If desc has no positions, but as many vertices as the mesh, positions and rest pose stay, too.
  * Errors: also INVALID_STATE and NON_FINITE (rest pose). */
 VOX_API vox_result vox_mesh_set_topology(vox_grid* grid, vox_body body, const vox_mesh_desc* desc);
@@ -698,8 +698,8 @@ typedef struct vox_vertices_desc {
     vox_positions positions;
     VOX_OPTIONAL const uint32_t* copies_of; /* `count` indices: the vertex whose position and rest position each one
                                                gets */
-    vox_positions rest_positions; /* of the new vertices, if the mesh has a rest pose. Default: those of copies_of, or
-                                     else `positions` */
+    vox_positions rest_positions; /* of the new vertices, if the mesh has a rest pose. Default: as copies_of says,
+                                     or else `positions` */
 } vox_vertices_desc;
 
 static inline vox_vertices_desc vox_default_vertices_desc(void) {

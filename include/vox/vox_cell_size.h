@@ -1,7 +1,7 @@
 /* vox_cell_size: the best cell size of a uniform grid, and the reasons for it.
  *
- * The method: write the cost of a grid's work as a function of the cell size, and minimise it. Here it is for
- *   vox_suggest_cell_size       the paper's grid and those of this library, from meshes alone
+ * The method: write the cost of a grid's work as a function of the cell size, and minimise it. Here it is:
+ *   vox_suggest_cell_size       the paper's grid and this library's grids, from meshes alone
  *   vox_foreign_grid_suggest    any other uniform grid, whatever it stores, from a description
  *   vox_foreign_grid_fit        the same, from a few timings
  *   vox_foreign_grid_tune       the same, by running it at cell sizes that the library chooses
@@ -9,7 +9,7 @@
  * All of them fill a vox_cell_size_result. A program that only collides bodies does not need this header: a vox_grid
  * chooses its cell size itself. docs/cost-models.md and docs/grid-counts.md derive the formulas.
  *
- * Conventions: those of vox.h, and
+ * Conventions: as in vox.h, and
  *   Threads    Functions run on any thread at any time, and callbacks on the thread that calls. The process keeps no
  *              state.
  *   Memory     comes from the allocator of the description, and is released when the call returns.
@@ -157,7 +157,7 @@ typedef struct vox_cell_size_desc {
     uint32_t reserved;        /* 0 */
     double zone_loss;         /* 0: 0.05 */
     double p_nc;              /* PAPER: the share of tetrahedra without a contact, in (0, 1); 0: 0.99 */
-    double cost_ratio;        /* PAPER: r, the cost of a particle test divided by that of a cell visit; 0: 5 */
+    double cost_ratio;        /* PAPER: r, the cost of a particle test divided by the cost of a cell visit; 0: 5 */
     double world_edge;        /* for cells_per_axis; 0: the longest side of the box of all vertices */
     uint64_t byte_budget;     /* REFERENCE with DENSE cells: most bytes that these may take; 0: no limit */
     VOX_OPTIONAL const vox_cost_weights* weights; /* REFERENCE and FAST; null: those shipped with the library */
@@ -172,14 +172,14 @@ static inline vox_cell_size_desc vox_default_cell_size_desc(void) {
 
 /* Suggests the cell size with the least cost for these meshes as they are now. Set out->struct_size first. The
  * elements of `meshes` are meshes[0].struct_size bytes apart. Their filters count only for self-collision. Large
- * meshes are sampled: with PAPER, those of more than 200,000 tetrahedra.
+ * meshes are sampled: with PAPER, meshes of more than 200,000 tetrahedra.
  * Errors: INVALID_ARGUMENT (also if no tetrahedron has a size), INVALID_MESH, NON_FINITE, LIMIT, OUT_OF_MEMORY,
  * UNSUPPORTED (SURFACE in a build without surfaces). */
 VOX_API vox_result vox_suggest_cell_size(VOX_OPTIONAL const vox_cell_size_desc* desc, const vox_mesh_desc* meshes,
                                          uint64_t mesh_count, vox_cell_size_result* out);
 
-/* Suggests a cell size for the meshes of a grid. It is faster, as samples are smaller. Without desc the model is that
- * of the grid's engine. If p_nc is 0, it is taken from the last step.
+/* Suggests a cell size for the meshes of a grid. It is faster, as samples are smaller. Without desc it uses the
+ * model of the grid's engine. If p_nc is 0, it is taken from the last step.
  * Errors: as vox_suggest_cell_size; also INVALID_STATE (a mesh without positions). */
 VOX_API vox_result vox_grid_suggest_cell_size(const vox_grid* grid, VOX_OPTIONAL const vox_cell_size_desc* desc,
                                               vox_cell_size_result* out);
@@ -310,7 +310,7 @@ typedef struct vox_foreign_grid {
     double radius;               /* grows the boxes of queries on all sides */
     double min_cell_size;        /* the smallest that gives right answers; 0: any, or with 27 what the boxes demand */
     double zone_loss;            /* 0: 0.05 */
-    vox_foreign_weights weights; /* all 0: those of the known grid */
+    vox_foreign_weights weights; /* all 0: as for the known grid */
     VOX_OPTIONAL const vox_allocator* allocator; /* null: the C++ runtime's heap */
 } vox_foreign_grid;
 
@@ -357,7 +357,7 @@ typedef struct vox_tune_desc {
     uint32_t max_runs;  /* 3 to VOX_TIMING_CAPACITY; 0: 7 */
     double min;         /* the range of cell sizes to try; both 0: from 1/8 to 8 times the first */
     double max;
-    double first;       /* the cell size to begin with; 0: the one that vox_foreign_grid_suggest gives */
+    double first;       /* the cell size to begin with; 0: as vox_foreign_grid_suggest says */
     double wanted_loss; /* stop when the expected loss is below this; 0: 0.02 */
 } vox_tune_desc;
 

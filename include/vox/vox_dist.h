@@ -6,10 +6,10 @@
  * vertex is owned by one rank; other ranks may have copies with the same position, bit for bit. vox_dist_scene_check
  * checks this.
  *
- * Everything that this header declares is experimental. The conventions are those of vox.h, and
- *   Collective  All ranks call such a function, in the same order, and get the same result: of several failures that
- *               of the lowest rank, where vox_last_error() has the reason; on the others it names that rank. A scene
- *               stays usable after a failure. What keeps a rank from talking (a null scene or out_scene, a bad
+ * Everything that this header declares is experimental. Conventions: as in vox.h, and
+ *   Collective  All ranks call such a function, in the same order, and get the same result: of several failures the
+ *               failure of the lowest rank. There vox_last_error() has the reason; elsewhere it names that rank. A
+ *               scene stays usable after a failure. What keeps a rank from talking (a null scene or out_scene, a bad
  *               transport) is refused on that rank alone, and the others wait for it.
  *   Threads     One thread at a time may use a scene, even to read it. Scenes with different transports are
  *               independent.
@@ -40,7 +40,7 @@ typedef struct vox_dist_message {
  *   agree      replaces each of the minima by its minimum over all ranks, and each of the sums by its sum; at most 8
  *              each.
  * If one fails, so does the collective function. After a failed exchange the rank goes on with the calls that the
- * others make, so that none of them waits and all get its result; only the last exchange of a step, which is about
+ * others make, so that none of them waits and all get its result. Only the last exchange of a step, which is about
  * boundaries, may fail on one rank alone. After a failed allgather or agree it stops at once. */
 typedef struct vox_dist_transport {
     uint32_t struct_size;
@@ -107,7 +107,7 @@ VOX_EXPERIMENTAL vox_result vox_dist_scene_bind_positions(vox_dist_scene* scene,
 
 /* Collective. Finds all contacts between all bodies of all ranks, as they are now. After an error there are none.
  * Errors: as vox_grid_step (the text names body and vertex); INVALID_STATE (a copy whose position differs from its
- * owner's, where that was noticed; ranks that call different functions); those of the transport. */
+ * owner's, where that was noticed; ranks that call different functions); errors of the transport. */
 VOX_EXPERIMENTAL vox_result vox_dist_scene_step(vox_dist_scene* scene);
 
 /* A contact, as one vox_grid with all bodies would find it: see vox_contact. The lowest tetrahedron is that with the

@@ -103,10 +103,10 @@ typedef struct vox_io_mesh_view {
     uint64_t vertex_count;
     const uint32_t* tets; /* corners in the file's order */
     uint64_t tet_count;
-    const uint32_t* triangles; /* those of the file */
+    const uint32_t* triangles; /* as in the file */
     uint64_t triangle_count;
     /* A number for each tet, where the file has some that are not 0; else null. Physical groups of Gmsh (of several, the
-     * first), references of Medit, the last attribute of TetGen; of VTK the cell array "region", "gmsh:physical",
+     * first), references of Medit, the last attribute of TetGen. Of VTK the cell array "region", "gmsh:physical",
      * "medit:ref", "material" or the like, else the first that has one whole number for each cell. */
     VOX_OPTIONAL const int32_t* tet_regions;
     /* For each vertex its number in the file, counted from 0 in the file's order, ascending; null if vertices were not

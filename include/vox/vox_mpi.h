@@ -1,5 +1,5 @@
 /* vox_mpi: the transport of vox_dist.h over MPI, built for the MPI whose mpi.h it was compiled with. Conventions:
- * those of vox_dist.h.
+ * as in vox_dist.h.
  *   Threads    As MPI_Init_thread allows. */
 #ifndef VOX_VOX_MPI_H
 #define VOX_VOX_MPI_H

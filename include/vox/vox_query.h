@@ -11,7 +11,7 @@
  * To ask about meshes and nothing else: create a grid, insert the meshes, take a locator, destroy the grid. No step is
  * needed.
  *
- * Conventions: those of vox.h, and
+ * Conventions: as in vox.h, and
  *   Threads    Any number of threads may ask, retain and release a locator at any time, also while another thread
  *              changes or destroys its grid. Taking a locator changes the grid.
  *   Bodies     A locator has the enabled meshes with tetrahedra. Nothing that happens to them later changes its
@@ -38,7 +38,7 @@ extern "C" {
 /* The meshes of a grid at one moment. */
 typedef struct vox_locator vox_locator;
 
-/* Takes a locator of the grid as it is now, and releases the one that *locator held before, if any. The caller owns
+/* Takes a locator of the grid as it is now, and releases what *locator held before, if anything. The caller owns
  * *locator and releases it with vox_locator_release. The first call after a mesh was inserted or edited takes longer.
  * If the call fails, *locator stays as it is.
  * A locator uses the grid's memory, within its byte budget: about 36 bytes a vertex and 28 a tetrahedron, and 12 a
@@ -73,7 +73,7 @@ typedef struct vox_query_desc {
     uint32_t struct_size;
     uint32_t flags;      /* vox_query_flags, combined with | */
     uint64_t mask;       /* only bodies whose category had a bit in common with it; 0: all */
-    vox_body excluded;   /* not this body, e.g. the one that asks; an id that the locator does not have excludes none */
+    vox_body excluded;   /* not this body, e.g. the asking body; an id that the locator does not have excludes none */
     uint32_t reserved;   /* 0 */
     double max_distance; /* vox_locator_find_closest: no further than this, in the caller's unit; 0: any distance */
 } vox_query_desc;
@@ -121,8 +121,8 @@ typedef struct vox_closest_hit {
     double distance;    /* from the point to `position`; negative if the body contains the point, which is exact */
 } vox_closest_hit;
 
-/* Finds the closest point of all surfaces: out_hits[i] is for point i. If several are equally close, it is the one with
- * the lowest (body, tet, facet). Points that are close together should follow each other: each search begins at the
+/* Finds the closest point of all surfaces: out_hits[i] is for point i. If several are equally close, the lowest
+ * (body, tet, facet) counts. Points that are close together should follow each other: each search begins at the
  * facet found before. Errors: also INVALID_ARGUMENT (a negative or NaN max_distance). */
 VOX_API vox_result vox_locator_find_closest(const vox_locator* locator, const vox_positions* points,
                                             VOX_OPTIONAL const vox_query_desc* desc, vox_closest_hit* out_hits);
@@ -137,8 +137,8 @@ typedef struct vox_box_hit {
 } vox_box_hit;
 
 /* Finds the tetrahedra whose bounding box has a point in common with the closed box from min[i] to max[i], decided
- * exactly and sorted by (box, body, tet). They include all tetrahedra that meet the box themselves, and those of zero
- * volume. Corners may be infinite. Errors: INVALID_ARGUMENT (arrays of different lengths; a min that is not <= its
+ * exactly and sorted by (box, body, tet). They include all tetrahedra that meet the box themselves, also tetrahedra of
+ * zero volume. Corners may be infinite. Errors: INVALID_ARGUMENT (arrays of different lengths; a min that is not <= its
  * max). */
 VOX_API vox_result vox_locator_find_box_hits(const vox_locator* locator, const vox_positions* min,
                                              const vox_positions* max, VOX_OPTIONAL const vox_query_desc* desc,

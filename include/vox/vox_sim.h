@@ -5,7 +5,7 @@
  * freely, and then edges, volumes, contacts and the floor are solved by XPBD in a fixed order (docs/sim.md).
  * Everything is double. The same calls give the same bits, with any number of workers.
  *
- * Conventions: those of vox.h, and
+ * Conventions: as in vox.h, and
  *   Threads    One thread at a time may use a simulation, even to read it. Different simulations are independent.
  *   Units      One unit of length, mass and time throughout. The defaults suit metres, kilograms and seconds.
  *   Limits     Positions, velocities and gravity are at most 1e15 on each axis, other numbers 1e60.
@@ -68,7 +68,7 @@ VOX_API void vox_sim_destroy(VOX_OPTIONAL vox_sim* sim);
  * simulation. Do not destroy it, and do not edit, move or bind the bodies' meshes there. */
 VOX_API vox_result vox_sim_get_grid(const vox_sim* sim, vox_grid** out_grid);
 
-/* Advances everything by time_step. Errors: INVALID_ARGUMENT (not a finite number of at least 1e-12), and those of
+/* Advances everything by time_step. Errors: INVALID_ARGUMENT (not a finite number of at least 1e-12), and errors of
  * vox_grid_step and vox_grid_find_constraints. After these the bodies are as they were after the last completed
  * substep. */
 VOX_API vox_result vox_sim_step(vox_sim* sim, double time_step);
@@ -92,7 +92,7 @@ typedef struct vox_sim_body_desc {
     uint64_t tet_count; /* at least 1 */
     double density;        /* mass over rest volume; 1000 */
     double youngs_modulus; /* resistance to stretching; 1e6 */
-    double bulk_modulus;   /* resistance to changes of volume, beyond that of the edges; 1e6 */
+    double bulk_modulus;   /* resistance to changes of volume, beyond what the edges have; 1e6 */
     double damping;        /* a time: damping of the edges over their stiffness; 0.01 */
     uint64_t user_data;    /* of the body in the grid */
 } vox_sim_body_desc;

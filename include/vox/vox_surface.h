@@ -5,7 +5,7 @@
  * A surface is created once from its topology. vox_surface_move gives it positions, or two sets of positions between
  * which every vertex moves in a straight line at constant speed. All other functions answer for that motion.
  *
- * Everything here is experimental. Conventions: those of vox.h, and
+ * Everything here is experimental. Conventions: as in vox.h, and
  *   Exact      Boxes are compared without rounding, and crossings are decided as if in infinite precision. Distances
  *              are rounded. Times of impact are never too late.
  *   Order      The answers do not depend on cell size, workers or machine.
@@ -111,7 +111,7 @@ VOX_EXPERIMENTAL vox_result vox_surface_move(vox_surface* surface, const vox_mot
 
 /* ---- pairs of boxes --------------------------------------------------------------------------- */
 
-/* Lists of partners. Those of feature first + i are partners[offsets[i]] to partners[offsets[i + 1] - 1], ascending. */
+/* Lists of partners. Feature first + i has partners[offsets[i]] to partners[offsets[i + 1] - 1], ascending. */
 typedef struct vox_partner_lists {
     const uint64_t* offsets; /* count + 1 numbers */
     const uint32_t* partners;

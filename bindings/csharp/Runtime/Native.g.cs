@@ -126,8 +126,8 @@ namespace Voxtet
         /// <summary>smooth along the surface; neighbouring vertices leave on the same side: for response (Heidelberger
         /// et al. 2004)</summary>
         Consistent = 0,
-        /// <summary>to the closest point of the surface, with the vertices of its face in place of those of the
-        /// tetrahedron: for finite elements, pictures, reports</summary>
+        /// <summary>to the closest point of the surface, with the vertices of its face in place of the tetrahedron's:
+        /// for finite elements, pictures, reports</summary>
         Closest = 1,
         /// <summary>none: vertices, weights and position alone.</summary>
         None = 2,
@@ -704,7 +704,8 @@ namespace Voxtet
         public uint count;
         /// <summary>those beyond `count` are 0, and so are their weights</summary>
         public Uint5 vertices;
-        /// <summary>tetrahedron of body_b: the lowest that contains the vertex, or the one behind the face</summary>
+        /// <summary>tetrahedron of body_b: the lowest that contains the vertex; with a face, the tetrahedron behind
+        /// it</summary>
         public uint element_b;
         public Double5 weights;
         /// <summary>a unit vector out of body_b, the way for body_a</summary>
@@ -743,8 +744,8 @@ namespace Voxtet
         public ulong closest_budget;
     }
 
-    /// <summary>Constraints, sorted by pair, then by kind, body_a and vertices, those of a face in ascending
-    /// order.</summary>
+    /// <summary>Constraints, sorted by pair, then by kind, body_a and vertices; the vertices of a face
+    /// ascend.</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct ConstraintView
     {
@@ -787,7 +788,7 @@ namespace Voxtet
         public GridFlags flags;
         /// <summary>counts up when an epoch ends (see Ownership above)</summary>
         public ulong epoch;
-        /// <summary>the one that was set, or else the one used last; 0 before the first step</summary>
+        /// <summary>as it was set, or else as it was used last; 0 before the first step</summary>
         public double cell_size;
         public double margin;
         /// <summary>held now, without the caller's arrays</summary>
@@ -888,7 +889,7 @@ namespace Voxtet
         public QueryFlags flags;
         /// <summary>only bodies whose category had a bit in common with it; 0: all</summary>
         public ulong mask;
-        /// <summary>not this body, e.g. the one that asks; an id that the locator does not have excludes none</summary>
+        /// <summary>not this body, e.g. the asking body; an id that the locator does not have excludes none</summary>
         public uint excluded;
         /// <summary>0</summary>
         public uint reserved;
@@ -1102,7 +1103,7 @@ namespace Voxtet
         public double zone_loss;
         /// <summary>PAPER: the share of tetrahedra without a contact, in (0, 1); 0: 0.99</summary>
         public double p_nc;
-        /// <summary>PAPER: r, the cost of a particle test divided by that of a cell visit; 0: 5</summary>
+        /// <summary>PAPER: r, the cost of a particle test divided by the cost of a cell visit; 0: 5</summary>
         public double cost_ratio;
         /// <summary>for cells_per_axis; 0: the longest side of the box of all vertices</summary>
         public double world_edge;
@@ -1192,7 +1193,7 @@ namespace Voxtet
         public double min_cell_size;
         /// <summary>0: 0.05</summary>
         public double zone_loss;
-        /// <summary>all 0: those of the known grid</summary>
+        /// <summary>all 0: as for the known grid</summary>
         public ForeignWeights weights;
         /// <summary>null: the C++ runtime's heap</summary>
         public Allocator* allocator;
@@ -1226,7 +1227,7 @@ namespace Voxtet
         /// <summary>the range of cell sizes to try; both 0: from 1/8 to 8 times the first</summary>
         public double min;
         public double max;
-        /// <summary>the cell size to begin with; 0: the one that vox_foreign_grid_suggest gives</summary>
+        /// <summary>the cell size to begin with; 0: as vox_foreign_grid_suggest says</summary>
         public double first;
         /// <summary>stop when the expected loss is below this; 0: 0.02</summary>
         public double wanted_loss;
@@ -1431,7 +1432,7 @@ namespace Voxtet
         /// <summary>corners in the file's order</summary>
         public uint* tets;
         public ulong tet_count;
-        /// <summary>those of the file</summary>
+        /// <summary>as in the file</summary>
         public uint* triangles;
         public ulong triangle_count;
         /// <summary>A number for each tet, where the file has some that are not 0; else null.</summary>
@@ -1637,7 +1638,7 @@ namespace Voxtet
         public double density;
         /// <summary>resistance to stretching; 1e6</summary>
         public double youngs_modulus;
-        /// <summary>resistance to changes of volume, beyond that of the edges; 1e6</summary>
+        /// <summary>resistance to changes of volume, beyond what the edges have; 1e6</summary>
         public double bulk_modulus;
         /// <summary>a time: damping of the edges over their stiffness; 0.01</summary>
         public double damping;
@@ -1793,8 +1794,8 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_body_remove(IntPtr grid, uint body);
 
-        /// <summary>Makes a mesh borrow another array of positions, one for each vertex, in place of the one that it
-        /// borrowed or owned.</summary>
+        /// <summary>Makes a mesh borrow another array of positions, one for each vertex, in place of its present
+        /// array.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_mesh_bind_positions(IntPtr grid, uint body, Positions* positions);
 
@@ -1803,7 +1804,7 @@ namespace Voxtet
         internal static extern Result vox_grid_step(IntPtr grid);
 
         /// <summary>Steps many different grids, several at a time: for many small scenes. worker_count and `tasks` are
-        /// those of vox_grid_desc; each grid is stepped by one thread and should have a worker_count of 0
+        /// as in vox_grid_desc; each grid is stepped by one thread and should have a worker_count of 0
         /// itself.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grids_step(IntPtr* grids, ulong count, uint worker_count, TaskSystem* tasks,
@@ -1916,7 +1917,7 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_get_failure(IntPtr grid, uint index, Failure* out_failure);
 
-        /// <summary>Replaces vertices, tetrahedra and positions by those of desc.</summary>
+        /// <summary>Replaces vertices, tetrahedra and positions by what desc has.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_mesh_set_topology(IntPtr grid, uint body, MeshDesc* desc);
 
@@ -1980,8 +1981,8 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_fail(Result result, IntPtr text);
 
-        /// <summary>Takes a locator of the grid as it is now, and releases the one that *locator held before, if
-        /// any.</summary>
+        /// <summary>Takes a locator of the grid as it is now, and releases what *locator held before, if
+        /// anything.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_update_locator(IntPtr grid, IntPtr* locator);
 

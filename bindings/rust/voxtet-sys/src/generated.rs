@@ -144,7 +144,7 @@ pub const VOX_DEPTH_PLANE: vox_depth_state = 6;
 pub type vox_depth_method = i32;
 /// smooth along the surface; neighbouring vertices leave on the same side: for response (Heidelberger et al. 2004)
 pub const VOX_DEPTH_METHOD_CONSISTENT: vox_depth_method = 0;
-/// to the closest point of the surface, with the vertices of its face in place of those of the tetrahedron: for finite
+/// to the closest point of the surface, with the vertices of its face in place of the tetrahedron's: for finite
 /// elements, pictures, reports
 pub const VOX_DEPTH_METHOD_CLOSEST: vox_depth_method = 1;
 /// none: vertices, weights and position alone. Quick
@@ -486,7 +486,7 @@ pub struct vox_mesh_desc {
 
 /// Vertex `vertex` of body_a lies in the closed tetrahedron `tet` of body_b and is not one of its corners. This is
 /// decided exactly. For each vertex and body_b there is a contact for every tetrahedron that has the vertex in its
-/// interior; if there is none, there is one for the lowest tetrahedron that has it on its boundary. A tetrahedron of
+/// interior. If there is none, there is one for the lowest tetrahedron that has it on its boundary. A tetrahedron of
 /// zero volume contains nothing.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -538,14 +538,14 @@ pub struct vox_pair_view {
 }
 
 /// A point of body_a and a point of body_b that must not pass through each other. Each is a weighted sum of vertices.
-/// All vertices are in one list: first those of body_a, whose weights add up to 1; then those of body_b, whose weights
-/// are negative and add up to -1. When vertex i is at x[i], gap = offset + dot(normal, sum of weights[i] * x[i])
-/// (vox_constraint_gap) is negative while the two overlap. Its gradient for vertex i is weights[i] * normal, so a
-/// solver pushes vertex i in that direction, whatever the kind. With velocities in place of x, the sum is the velocity
-/// of the point of body_a relative to that of body_b, for damping and friction. kind vertices of body_a vertices of
-/// body_b gap in the step INSIDE the vertex the tetrahedron that contains it minus the depth EDGE the edge the face
-/// minus the depth of its part inside, from the middle of that part PROXIMITY the vertex the face with the closest
-/// point the distance IMPACT the vertex the face that it met first minus the distance behind its plane
+/// All vertices are in one list: first the vertices of body_a, whose weights add up to 1; then the vertices of body_b,
+/// whose weights are negative and add up to -1. When vertex i is at x[i], gap = offset + dot(normal, sum of weights[i]
+/// * x[i]) (vox_constraint_gap) is negative while the two overlap. Its gradient for vertex i is weights[i] * normal, so
+/// a solver pushes vertex i in that direction, whatever the kind. With velocities in place of x, the sum is the
+/// velocity of the point of body_a relative to the point of body_b, for damping and friction. kind vertices of body_a
+/// vertices of body_b gap in the step INSIDE the vertex the tetrahedron that contains it minus the depth EDGE the edge
+/// the face minus the depth of its part inside, from the middle of that part PROXIMITY the vertex the face with the
+/// closest point the distance IMPACT the vertex the face that it met first minus the distance behind its plane
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_constraint {
@@ -559,7 +559,7 @@ pub struct vox_constraint {
     pub count: u32,
     /// those beyond `count` are 0, and so are their weights
     pub vertices: [u32; 5],
-    /// tetrahedron of body_b: the lowest that contains the vertex, or the one behind the face
+    /// tetrahedron of body_b: the lowest that contains the vertex; with a face, the tetrahedron behind it
     pub element_b: u32,
     pub weights: [f64; 5],
     /// a unit vector out of body_b, the way for body_a
@@ -597,9 +597,9 @@ pub struct vox_constraint_desc {
     pub closest_budget: u64,
 }
 
-/// Constraints, sorted by pair, then by kind, body_a and vertices, those of a face in ascending order. Those of pair p
-/// of vox_grid_get_pairs are data[pair_offsets[p]] to data[pair_offsets[p + 1] - 1]. The arrays live until the end of
-/// the epoch, or until constraints are found again.
+/// Constraints, sorted by pair, then by kind, body_a and vertices; the vertices of a face ascend. Pair p of
+/// vox_grid_get_pairs has data[pair_offsets[p]] to data[pair_offsets[p + 1] - 1]. The arrays live until the end of the
+/// epoch, or until constraints are found again.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_constraint_view {
@@ -641,7 +641,7 @@ pub struct vox_grid_info {
     pub flags: u32,
     /// counts up when an epoch ends (see Ownership above)
     pub epoch: u64,
-    /// the one that was set, or else the one used last; 0 before the first step
+    /// as it was set, or else as it was used last; 0 before the first step
     pub cell_size: f64,
     pub margin: f64,
     /// held now, without the caller's arrays
@@ -704,7 +704,7 @@ pub struct vox_vertices_desc {
     pub positions: vox_positions,
     /// `count` indices: the vertex whose position and rest position each one gets
     pub copies_of: *const u32,
-    /// of the new vertices, if the mesh has a rest pose. Default: those of copies_of, or else `positions`
+    /// of the new vertices, if the mesh has a rest pose. Default: as copies_of says, or else `positions`
     pub rest_positions: vox_positions,
 }
 
@@ -755,7 +755,7 @@ pub struct vox_query_desc {
     pub flags: u32,
     /// only bodies whose category had a bit in common with it; 0: all
     pub mask: u64,
-    /// not this body, e.g. the one that asks; an id that the locator does not have excludes none
+    /// not this body, e.g. the asking body; an id that the locator does not have excludes none
     pub excluded: vox_body,
     /// 0
     pub reserved: u32,
@@ -974,7 +974,7 @@ pub struct vox_cell_size_desc {
     pub zone_loss: f64,
     /// PAPER: the share of tetrahedra without a contact, in (0, 1); 0: 0.99
     pub p_nc: f64,
-    /// PAPER: r, the cost of a particle test divided by that of a cell visit; 0: 5
+    /// PAPER: r, the cost of a particle test divided by the cost of a cell visit; 0: 5
     pub cost_ratio: f64,
     /// for cells_per_axis; 0: the longest side of the box of all vertices
     pub world_edge: f64,
@@ -1066,7 +1066,7 @@ pub struct vox_foreign_grid {
     pub min_cell_size: f64,
     /// 0: 0.05
     pub zone_loss: f64,
-    /// all 0: those of the known grid
+    /// all 0: as for the known grid
     pub weights: vox_foreign_weights,
     /// null: the C++ runtime's heap
     pub allocator: *const vox_allocator,
@@ -1100,7 +1100,7 @@ pub struct vox_tune_desc {
     /// the range of cell sizes to try; both 0: from 1/8 to 8 times the first
     pub min: f64,
     pub max: f64,
-    /// the cell size to begin with; 0: the one that vox_foreign_grid_suggest gives
+    /// the cell size to begin with; 0: as vox_foreign_grid_suggest says
     pub first: f64,
     /// stop when the expected loss is below this; 0: 0.02
     pub wanted_loss: f64,
@@ -1167,7 +1167,7 @@ pub struct vox_motion {
     pub radius: f64,
 }
 
-/// Lists of partners. Those of feature first + i are partners[offsets[i]] to partners[offsets[i + 1] - 1], ascending.
+/// Lists of partners. Feature first + i has partners[offsets[i]] to partners[offsets[i + 1] - 1], ascending.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_partner_lists {
@@ -1311,11 +1311,11 @@ pub struct vox_io_mesh_view {
     /// corners in the file's order
     pub tets: *const u32,
     pub tet_count: u64,
-    /// those of the file
+    /// as in the file
     pub triangles: *const u32,
     pub triangle_count: u64,
     /// A number for each tet, where the file has some that are not 0; else null. Physical groups of Gmsh (of several,
-    /// the first), references of Medit, the last attribute of TetGen; of VTK the cell array "region", "gmsh:physical",
+    /// the first), references of Medit, the last attribute of TetGen. Of VTK the cell array "region", "gmsh:physical",
     /// "medit:ref", "material" or the like, else the first that has one whole number for each cell.
     pub tet_regions: *const i32,
     /// For each vertex its number in the file, counted from 0 in the file's order, ascending; null if vertices were not
@@ -1526,7 +1526,7 @@ pub struct vox_sim_body_desc {
     pub density: f64,
     /// resistance to stretching; 1e6
     pub youngs_modulus: f64,
-    /// resistance to changes of volume, beyond that of the edges; 1e6
+    /// resistance to changes of volume, beyond what the edges have; 1e6
     pub bulk_modulus: f64,
     /// a time: damping of the edges over their stiffness; 0.01
     pub damping: f64,
@@ -1592,9 +1592,8 @@ extern "C" {
     ) -> vox_result;
     /// Removes a body. The results of the last step stay as they are; the next step ends the body's pairs.
     pub fn vox_body_remove(grid: *mut vox_grid, body: vox_body) -> vox_result;
-    /// Makes a mesh borrow another array of positions, one for each vertex, in place of the one that it borrowed or
-    /// owned. There is no need to bind the same array again after writing to it. Errors: INVALID_ARGUMENT (e.g. another
-    /// count).
+    /// Makes a mesh borrow another array of positions, one for each vertex, in place of its present array. There is no
+    /// need to bind the same array again after writing to it. Errors: INVALID_ARGUMENT (e.g. another count).
     pub fn vox_mesh_bind_positions(
         grid: *mut vox_grid,
         body: vox_body,
@@ -1607,7 +1606,7 @@ extern "C" {
     /// Errors: INVALID_STATE (a mesh without positions), NON_FINITE, LIMIT, INVALID_ARGUMENT (doubles read as floats; a
     /// task system that broke its rules), BUDGET, OUT_OF_MEMORY. vox_grid_get_failure names the body.
     pub fn vox_grid_step(grid: *mut vox_grid) -> vox_result;
-    /// Steps many different grids, several at a time: for many small scenes. worker_count and `tasks` are those of
+    /// Steps many different grids, several at a time: for many small scenes. worker_count and `tasks` are as in
     /// vox_grid_desc; each grid is stepped by one thread and should have a worker_count of 0 itself. If a grid fails,
     /// the others are stepped nevertheless; `results` receives the result of each. Returns the first failure, whose
     /// text says which grid. Errors: as vox_grid_step; INVALID_ARGUMENT (a null or repeated grid) or OUT_OF_MEMORY
@@ -1631,8 +1630,8 @@ extern "C" {
     /// missed some.
     pub fn vox_grid_get_pairs(grid: *const vox_grid, out_view: *mut vox_pair_view) -> vox_result;
     /// Finds the constraints of the last step. This replaces constraints that were found before. With
-    /// VOX_GRID_CONSTRAINTS every step does so itself. Call it before anything moves: positions must be those of the
-    /// step, and no body of a pair may have been removed or edited. Constraints between bodies at rest are carried
+    /// VOX_GRID_CONSTRAINTS every step does so itself. Call it before anything moves: positions must be as they were in
+    /// the step, and no body of a pair may have been removed or edited. Constraints between bodies at rest are carried
     /// over. Errors: INVALID_STATE (no step yet; a body was removed or edited), INVALID_ARGUMENT, NON_FINITE, LIMIT,
     /// BUDGET, OUT_OF_MEMORY.
     pub fn vox_grid_find_constraints(
@@ -1746,7 +1745,7 @@ extern "C" {
         index: u32,
         out_failure: *mut vox_failure,
     ) -> vox_result;
-    /// Replaces vertices, tetrahedra and positions by those of desc. Id, user data, filter, transform and disabled
+    /// Replaces vertices, tetrahedra and positions by what desc has. Id, user data, filter, transform and disabled
     /// pairs stay. If desc has no positions, but as many vertices as the mesh, positions and rest pose stay, too.
     /// Errors: also INVALID_STATE and NON_FINITE (rest pose).
     pub fn vox_mesh_set_topology(
@@ -1845,8 +1844,8 @@ extern "C" {
 
 #[rustfmt::skip]
 extern "C" {
-    /// Takes a locator of the grid as it is now, and releases the one that *locator held before, if any. The caller
-    /// owns *locator and releases it with vox_locator_release. The first call after a mesh was inserted or edited takes
+    /// Takes a locator of the grid as it is now, and releases what *locator held before, if anything. The caller owns
+    /// *locator and releases it with vox_locator_release. The first call after a mesh was inserted or edited takes
     /// longer. If the call fails, *locator stays as it is. A locator uses the grid's memory, within its byte budget:
     /// about 36 bytes a vertex and 28 a tetrahedron, and 12 a tetrahedron that all locators of a grid share. The memory
     /// of released locators is used again, so that a program that takes one in every frame soon allocates nothing;
@@ -1883,9 +1882,9 @@ extern "C" {
         capacity: u64,
         out_count: *mut u64,
     ) -> vox_result;
-    /// Finds the closest point of all surfaces: out_hits[i] is for point i. If several are equally close, it is the one
-    /// with the lowest (body, tet, facet). Points that are close together should follow each other: each search begins
-    /// at the facet found before. Errors: also INVALID_ARGUMENT (a negative or NaN max_distance).
+    /// Finds the closest point of all surfaces: out_hits[i] is for point i. If several are equally close, the lowest
+    /// (body, tet, facet) counts. Points that are close together should follow each other: each search begins at the
+    /// facet found before. Errors: also INVALID_ARGUMENT (a negative or NaN max_distance).
     pub fn vox_locator_find_closest(
         locator: *const vox_locator,
         points: *const vox_positions,
@@ -1893,9 +1892,9 @@ extern "C" {
         out_hits: *mut vox_closest_hit,
     ) -> vox_result;
     /// Finds the tetrahedra whose bounding box has a point in common with the closed box from min[i] to max[i], decided
-    /// exactly and sorted by (box, body, tet). They include all tetrahedra that meet the box themselves, and those of
-    /// zero volume. Corners may be infinite. Errors: INVALID_ARGUMENT (arrays of different lengths; a min that is not
-    /// <= its max).
+    /// exactly and sorted by (box, body, tet). They include all tetrahedra that meet the box themselves, also
+    /// tetrahedra of zero volume. Corners may be infinite. Errors: INVALID_ARGUMENT (arrays of different lengths; a min
+    /// that is not <= its max).
     pub fn vox_locator_find_box_hits(
         locator: *const vox_locator,
         min: *const vox_positions,
@@ -1932,7 +1931,7 @@ extern "C" {
 extern "C" {
     /// Suggests the cell size with the least cost for these meshes as they are now. Set out->struct_size first. The
     /// elements of `meshes` are meshes[0].struct_size bytes apart. Their filters count only for self-collision. Large
-    /// meshes are sampled: with PAPER, those of more than 200,000 tetrahedra. Errors: INVALID_ARGUMENT (also if no
+    /// meshes are sampled: with PAPER, meshes of more than 200,000 tetrahedra. Errors: INVALID_ARGUMENT (also if no
     /// tetrahedron has a size), INVALID_MESH, NON_FINITE, LIMIT, OUT_OF_MEMORY, UNSUPPORTED (SURFACE in a build without
     /// surfaces).
     pub fn vox_suggest_cell_size(
@@ -1941,8 +1940,8 @@ extern "C" {
         mesh_count: u64,
         out: *mut vox_cell_size_result,
     ) -> vox_result;
-    /// Suggests a cell size for the meshes of a grid. It is faster, as samples are smaller. Without desc the model is
-    /// that of the grid's engine. If p_nc is 0, it is taken from the last step. Errors: as vox_suggest_cell_size; also
+    /// Suggests a cell size for the meshes of a grid. It is faster, as samples are smaller. Without desc it uses the
+    /// model of the grid's engine. If p_nc is 0, it is taken from the last step. Errors: as vox_suggest_cell_size; also
     /// INVALID_STATE (a mesh without positions).
     pub fn vox_grid_suggest_cell_size(
         grid: *const vox_grid,
@@ -2245,8 +2244,8 @@ extern "C" {
     /// Gets the grid inside, for reading results and for setting cell size and workers. It lives as long as the
     /// simulation. Do not destroy it, and do not edit, move or bind the bodies' meshes there.
     pub fn vox_sim_get_grid(sim: *const vox_sim, out_grid: *mut *mut vox_grid) -> vox_result;
-    /// Advances everything by time_step. Errors: INVALID_ARGUMENT (not a finite number of at least 1e-12), and those of
-    /// vox_grid_step and vox_grid_find_constraints. After these the bodies are as they were after the last completed
+    /// Advances everything by time_step. Errors: INVALID_ARGUMENT (not a finite number of at least 1e-12), and errors
+    /// of vox_grid_step and vox_grid_find_constraints. After these the bodies are as they were after the last completed
     /// substep.
     pub fn vox_sim_step(sim: *mut vox_sim, time_step: f64) -> vox_result;
     /// Adds a body. *out_body is also its id in the grid. Errors: INVALID_ARGUMENT (also a body without volume),
