@@ -174,9 +174,11 @@ const until = Date.now() + 30000;
 let link = LINK;
 (function look() {
     const shown = document.getElementById("frame").contentWindow;
-    const pages = [shown, ...Array.from(shown.frames)].map((page) => page.document.documentElement?.outerHTML ?? "");
+    const frames = Array.from(shown.frames);
+    const loaded = frames.every((page) => page.location.href !== "about:blank" && page.document.readyState === "complete");
+    const pages = [shown, ...frames].map((page) => page.document.documentElement?.outerHTML ?? "");
     const text = [shown.location.href, ...pages].join("\\n");
-    const found = link && shown.document.querySelector(link);
+    const found = link && loaded && shown.document.querySelector(link);
     if (found) {
         link = "";
         found.click();
