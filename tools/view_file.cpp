@@ -27,14 +27,11 @@ std::string base64(std::span<const std::uint32_t> words) {
     constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string text;
     const std::size_t count = 4 * words.size();
-    const auto byte = [&](std::size_t i) {
-        return i < count ? words[i / 4] >> (8 * (i % 4)) & 255u : 0u;
-    };
+    const auto byte = [&](std::size_t i) { return i < count ? words[i / 4] >> (8 * (i % 4)) & 255u : 0u; };
     text.reserve(count / 3 * 4 + 4);
     for (std::size_t i = 0; i < count; i += 3) {
         const std::uint32_t bits = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
-        for (std::size_t k = 0; k < 4; ++k)
-            text += i + k > count ? '=' : digits[bits >> (18 - 6 * k) & 63u];
+        for (std::size_t k = 0; k < 4; ++k) text += i + k > count ? '=' : digits[bits >> (18 - 6 * k) & 63u];
     }
     return text;
 }
@@ -82,14 +79,16 @@ Json body_of(const DrawnMesh& mesh, const Point& middle) {
             if (is_new) add_point(positions, at(mesh, vertex), middle);
             corners.push_back(place->second);
         }
-    return {{"name", short_names({mesh.name})}, {"positions", base64(positions)}, {"triangles", base64(corners)}};
+    return {
+        {"name", short_names({mesh.name})}, {"positions", base64(positions)}, {"triangles", base64(corners)}};
 }
 
 // Six floats for each contact: where the vertex is, and its way out, as long as it is deep.
 std::string ways_of(std::span<const DrawnMesh> meshes, const vox_grid* grid, const Point& middle) {
     std::map<std::tuple<vox_body, std::uint32_t, vox_body>, const vox_constraint*> constraints;
     for (const vox_constraint& c : constraints_of(grid))
-        if (c.kind == VOX_CONSTRAINT_INSIDE) constraints.emplace(std::tuple(c.body_a, c.vertices[0], c.body_b), &c);
+        if (c.kind == VOX_CONSTRAINT_INSIDE)
+            constraints.emplace(std::tuple(c.body_a, c.vertices[0], c.body_b), &c);
     std::vector<std::uint32_t> words;
     for (const vox_contact& contact : contacts_of(grid)) {
         const auto mesh = std::ranges::find(meshes, contact.body_a, &DrawnMesh::id);
