@@ -228,9 +228,16 @@ const char* vox_io_mesh_get_warnings(const vox_io_mesh* mesh) {
 }
 
 const char* vox_io_format_string(vox_io_format format) {
-    static constexpr const char* names[] = {
-        "no file",         "Gmsh .msh",    "TetGen .node/.ele", "Medit .mesh",        "Vega .veg",
-        "VTK legacy .vtk", "VTK XML .vtu", "surface",           "surface, by assimp", "Abaqus .inp"};
+    static constexpr const char* names[] = {"no file",
+                                            "Gmsh .msh",
+                                            "TetGen .node/.ele",
+                                            "Medit .mesh",
+                                            "Vega .veg",
+                                            "VTK legacy .vtk",
+                                            "VTK XML .vtu and .vtp",
+                                            "surface",
+                                            "surface, by assimp",
+                                            "Abaqus .inp"};
     const auto index = static_cast<std::uint32_t>(enum_value(format));
     return index < std::size(names) ? names[index] : "unknown format";
 }
