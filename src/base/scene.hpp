@@ -75,7 +75,8 @@ struct Positions {
     }
 
 private:
-    Vec3d exact_of_rounded(std::size_t vertex) const noexcept {
+    // Not inlined, so that exact() is.
+    [[gnu::noinline]] Vec3d exact_of_rounded(std::size_t vertex) const noexcept {
         const Vec3d p = doubles ? read<Vec3d, double>(vertex) : Vec3d(floats(vertex));
         return transform ? transformed(transform, p) : p;
     }

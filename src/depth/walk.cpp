@@ -4,268 +4,367 @@
 // intersection", Journal of Computer Graphics Techniques 2, 2013). The side of an edge on which the origin
 // is found is computed in the same way for all facets around the edge, so the walk never slips between two of
 // them. The winding of tetrahedra plays no part, so the walk goes through inverted and flat ones, too.
+//
+// Each lane of a register has a walk of its own. Registers take the place of branches that would be
+// mispredicted, and many walks wait for memory together. What is an index (which tetrahedron, which facet) is
+// plain code.
 #include "depth/walk.hpp"
 
 #include "base/prefetch.hpp"
+#include "base/simd.hpp"
 #include "base/vectors.hpp"
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cstddef>
-#include <utility>
 
+#undef VOX_SOURCE
+#define VOX_SOURCE "depth/walk.cpp"
+#include "base/each_target.hpp"
+
+#include "base/lanes-inl.hpp"
+
+#ifndef VOX_DEPTH_WALK_ONCE
+#define VOX_DEPTH_WALK_ONCE
 namespace vox::depth {
 
-namespace {
+constexpr std::size_t walk_group = 64, walk_register = 8; // most walks side by side, most lanes
+
+// The numbers of walks side by side. Coordinates are in the order of a walk's frame, in which z is the
+// longest axis of the segment.
+struct WalkLanes {
+    alignas(64) double origin[3][walk_group];
+    double way[3][walk_group]; // from p to q
+    double shear[2][walk_group];
+    // Coordinates and numbers of vertices: the corners of the first tetrahedron. Later the first is the apex
+    // of the next one, or just the number of the vertex behind the gate, the fourth of the tetrahedron that
+    // the line leaves; the others are the corners of the gate, in the frame.
+    double corner[4][4][walk_group];
+    // Where the line crosses the gate: weights of corners, and the height as numerator and denominator, which
+    // is 0 for a gate that is seen edge-on.
+    double weight[3][walk_group], above[walk_group], below[walk_group];
+};
+
+} // namespace vox::depth
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace vox::depth {
+namespace HWY_NAMESPACE {
+namespace walks { // near.cpp has registers, too
+
+#if HWY_HAVE_FLOAT64
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Doubles = hn::CappedTag<double, walk_register>;
+using D = hn::Vec<Doubles>;
+using M = hn::Mask<Doubles>;
+constexpr std::size_t lane_count = hn::MaxLanes(Doubles());
+
+HWY_INLINE D Load(const double* from) { return hn::Load(Doubles(), from); }
+HWY_INLINE void Store(D value, double* to) { hn::Store(value, Doubles(), to); }
+HWY_INLINE D Set(double value) { return hn::Set(Doubles(), value); }
+HWY_INLINE std::uint64_t BitsOf(M mask) { return vox::HWY_NAMESPACE::BitsOfMask(Doubles(), mask); }
+
+#else // no doubles in registers: a plain number has the names of Highway's operations
+
+using D = double;
+using M = bool;
+constexpr std::size_t lane_count = 1;
+
+HWY_INLINE D Load(const double* from) { return *from; }
+HWY_INLINE void Store(D value, double* to) { *to = value; }
+HWY_INLINE D Set(double value) { return value; }
+HWY_INLINE std::uint64_t BitsOf(M mask) { return mask; }
+HWY_INLINE M And(M a, M b) { return a && b; }
+HWY_INLINE M AndNot(M a, M b) { return !a && b; }
+HWY_INLINE M Or(M a, M b) { return a || b; }
+HWY_INLINE M Xor(M a, M b) { return a != b; }
+HWY_INLINE M Not(M a) { return !a; }
+HWY_INLINE D IfThenElse(M mask, D yes, D no) { return mask ? yes : no; }
+
+#endif
 
 // A vertex in the frame in which p is the origin and q is (0, 0, 1).
 struct Corner {
-    std::uint32_t vertex;
-    double x, y, z;
+    D x, y, z, vertex;
 };
 
-class Frame {
-public:
-    Frame() = default;
-    Frame(const Vec3d& p, const Vec3d& q) : origin_(p), z_(0) {
-        const double d[3] = {q.x - p.x, q.y - p.y, q.z - p.z};
-        for (int axis = 1; axis < 3; ++axis)
-            if (std::abs(d[axis]) > std::abs(d[z_])) z_ = axis;
-        x_ = (z_ + 1) % 3;
-        y_ = (z_ + 2) % 3;
-        dz_ = d[z_];
-        shear_x_ = d[x_] / dz_;
-        shear_y_ = d[y_] / dz_;
-    }
+// The corners of a facet through which the line goes, counter-clockwise around the line.
+using Gate = Corner[3];
 
-    bool is_usable() const { return dz_ != 0; } // p and q differ
+HWY_INLINE Corner LoadCorner(const double (&from)[4][walk_group], std::size_t i) {
+    return {Load(from[0] + i), Load(from[1] + i), Load(from[2] + i), Load(from[3] + i)};
+}
+HWY_INLINE void StoreCorner(const Corner& corner, double (&to)[4][walk_group], std::size_t i) {
+    Store(corner.x, to[0] + i);
+    Store(corner.y, to[1] + i);
+    Store(corner.z, to[2] + i);
+    Store(corner.vertex, to[3] + i);
+}
+HWY_INLINE Corner Select(M mask, const Corner& yes, const Corner& no) {
+    return {IfThenElse(mask, yes.x, no.x), IfThenElse(mask, yes.y, no.y), IfThenElse(mask, yes.z, no.z),
+            IfThenElse(mask, yes.vertex, no.vertex)};
+}
 
-    Corner operator()(const Solid& solid, std::uint32_t vertex) const {
-        const Vec3d from_p = solid.at(vertex) - origin_;
-        const double r[3] = {from_p.x, from_p.y, from_p.z};
-        return {vertex, r[x_] - shear_x_ * r[z_], r[y_] - shear_y_ * r[z_], r[z_] / dz_};
-    }
+HWY_INLINE Corner InFrame(const WalkLanes& walks, std::size_t c, std::size_t i) {
+    const Corner at = LoadCorner(walks.corner[c], i);
+    const D z = at.z - Load(walks.origin[2] + i);
+    return {(at.x - Load(walks.origin[0] + i)) - Load(walks.shear[0] + i) * z,
+            (at.y - Load(walks.origin[1] + i)) - Load(walks.shear[1] + i) * z, z / Load(walks.way[2] + i),
+            at.vertex};
+}
 
-private:
-    Vec3d origin_;
-    int x_, y_, z_; // the axes of the frame
-    double dz_, shear_x_, shear_y_;
-};
-
-// Twice the area of the triangle (origin, a, b); the negative of area(b, a), exactly.
-double area(const Corner& a, const Corner& b) { return a.x * b.y - b.x * a.y; }
+// Twice the area of the triangle (origin, a, b); the negative of Area(b, a), exactly.
+HWY_INLINE D Area(const Corner& a, const Corner& b) { return a.x * b.y - b.x * a.y; }
 
 // True if the origin is to the left of a -> b. An origin on the edge counts as if it were moved by (e, e^2)
 // for a small e (Edelsbrunner, Muecke, "Simulation of simplicity", ACM Transactions on Graphics 9, 1990), so
 // that the answers for all edges still belong to one line.
-bool left(const Corner& a, const Corner& b) {
-    const double twice = area(a, b);
-    if (twice != 0) return twice > 0;
-    if (a.y != b.y) return a.y > b.y;
-    return a.x != b.x ? a.x < b.x : a.vertex < b.vertex;
+HWY_INLINE M Left(const Corner& a, const Corner& b) {
+    const D twice = Area(a, b), zero = Set(0);
+    const M by_x = Or(a.x < b.x, And(a.x == b.x, a.vertex < b.vertex));
+    return Or(twice > zero, And(twice == zero, Or(a.y > b.y, And(a.y == b.y, by_x))));
 }
 
-// A facet through which the line goes, with its corners counter-clockwise around the line.
-struct Gate {
-    Corner a, b, c;
-    std::uint32_t behind; // the fourth vertex of the tetrahedron that the line leaves here
+struct GatePoint {
+    D weight[3], above, below;
 };
-
-// Where the line crosses a gate, as numerator and denominator, which is 0 for a gate that is seen edge-on.
-struct Ratio {
-    double above, below;
-};
-Ratio height(const Corner& a, const Corner& b, const Corner& c) {
-    const double of_a = area(b, c), of_b = area(c, a), of_c = area(a, b);
-    return {of_a * a.z + of_b * b.z + of_c * c.z, of_a + of_b + of_c};
+HWY_INLINE GatePoint CrossGate(const Gate& gate) {
+    const D a = Area(gate[1], gate[2]), b = Area(gate[2], gate[0]), c = Area(gate[0], gate[1]);
+    return {{a, b, c}, a * gate[0].z + b * gate[1].z + c * gate[2].z, a + b + c};
 }
-Ratio height(const Gate& gate) { return height(gate.a, gate.b, gate.c); }
 
-// The facet through which the line from the origin, inside or on the tetrahedron, leaves it.
-bool first_gate(const Frame& frame, const Solid& solid, const Tet& tet, Gate& out) {
-    std::array<Corner, 4> corner;
-    for (std::size_t i = 0; i < 4; ++i) corner[i] = frame(solid, tet.v[i]);
-    bool is_left[4][4];
-    for (std::size_t i = 0; i < 4; ++i)
-        for (std::size_t j = 0; j < i; ++j) is_left[j][i] = !(is_left[i][j] = left(corner[i], corner[j]));
-    int best = -1;
-    double farthest = 0;
-    for (int i = 0; i < 4; ++i) {
-        const auto& [a, b, c] = facet_corners[i];
-        if (is_left[a][b] != is_left[b][c] || is_left[a][b] != is_left[c][a]) continue;
-        const Ratio at =
-            is_left[a][b] ? height(corner[a], corner[b], corner[c]) : height(corner[a], corner[c], corner[b]);
-        const double z =
-            at.below > 0 ? at.above / at.below : std::max({corner[a].z, corner[b].z, corner[c].z});
-        if (best >= 0 && z <= farthest) continue;
-        best = i;
-        farthest = z;
+HWY_INLINE bool HaveWalks(std::uint64_t active, std::size_t i) { // the lanes of a register
+    return (active >> i & ((std::uint64_t{1} << lane_count) - 1)) != 0;
+}
+
+// Returns the bits of walks whose gates are found.
+HWY_INLINE std::uint64_t TakeGates(const Gate& gate, D behind, M found, std::size_t i, WalkLanes& walks) {
+    const GatePoint at = CrossGate(gate);
+    for (std::size_t k = 0; k < 3; ++k) {
+        StoreCorner(gate[k], walks.corner[k + 1], i);
+        Store(at.weight[k], walks.weight[k] + i);
     }
-    if (best < 0) return false;
-    const auto& [a, b, c] = facet_corners[best];
-    const bool turn = !is_left[a][b];
-    out = {corner[a], corner[turn ? c : b], corner[turn ? b : c], tet.v[best]};
-    return true;
+    Store(behind, walks.corner[0][3] + i);
+    Store(at.above, walks.above + i);
+    Store(at.below, walks.below + i);
+    return BitsOf(found) << i;
 }
 
-// Goes from the facet by which the line enters a tetrahedron, whose fourth corner is `apex`, to that by which
-// it leaves.
-bool to_next_gate(Gate& gate, const Corner& apex) {
-    const bool a = left(apex, gate.a), b = left(apex, gate.b), c = left(apex, gate.c);
-    if (a && !b) {
-        gate.behind = gate.c.vertex;
-        gate.c = gate.b;
-        gate.b = gate.a;
-    } else if (b && !c) {
-        gate.behind = gate.a.vertex;
-    } else if (c && !a) {
-        gate.behind = gate.b.vertex;
-        gate.b = gate.c;
-        gate.c = gate.a;
-    } else {
-        return false; // happens only by rounding
+// Finds the facets through which lines from the origin, inside or on the first tetrahedra, leave these.
+std::uint64_t FirstGates(WalkLanes& walks, std::uint64_t active) {
+    std::uint64_t all_found = 0;
+    for (std::size_t i = 0; i < walk_group; i += lane_count) {
+        if (!HaveWalks(active, i)) continue;
+        const D zero = Set(0), length = Load(walks.way[2] + i);
+        for (int axis = 0; axis < 2; ++axis) Store(Load(walks.way[axis] + i) / length, walks.shear[axis] + i);
+        const Corner corner[4] = {InFrame(walks, 0, i), InFrame(walks, 1, i), InFrame(walks, 2, i),
+                                  InFrame(walks, 3, i)};
+        M left[4][4];
+        for (int a = 0; a < 4; ++a)
+            for (int b = 0; b < a; ++b) left[b][a] = Not(left[a][b] = Left(corner[a], corner[b]));
+        M found = zero > zero;
+        D farthest = zero, behind = zero;
+        Gate gate{corner[0], corner[0], corner[0]};
+        for (int facet = 0; facet < 4; ++facet) {
+            const auto& [a, b, c] = facet_corners[facet];
+            const M is_gate = Not(Or(Xor(left[a][b], left[b][c]), Xor(left[a][b], left[c][a])));
+            const Gate other{corner[a], Select(left[a][b], corner[b], corner[c]),
+                             Select(left[a][b], corner[c], corner[b])};
+            const GatePoint at = CrossGate(other);
+            const D ab = IfThenElse(corner[a].z < corner[b].z, corner[b].z, corner[a].z);
+            const D highest = IfThenElse(ab < corner[c].z, corner[c].z, ab);
+            const D z = IfThenElse(at.below > zero, at.above / at.below, highest);
+            const M take = AndNot(And(found, z <= farthest), is_gate);
+            found = Or(found, take);
+            farthest = IfThenElse(take, z, farthest);
+            behind = IfThenElse(take, corner[facet].vertex, behind);
+            for (int k = 0; k < 3; ++k) gate[k] = Select(take, other[k], gate[k]);
+        }
+        // None where p and q are one.
+        all_found |= TakeGates(gate, behind, AndNot(length == zero, found), i, walks);
     }
-    gate.a = apex;
-    return true;
+    return all_found & active;
 }
 
-// The point where the line crosses `gate`; false when that is not between p and q.
-bool cross_surface(const Gate& gate, const Vec3d& p, const Vec3d& q, const Triangle& triangle,
-                   SurfacePoint& out) {
-    constexpr double rounding = 1e-9; // of the length of the segment
-    const Ratio at = height(gate);
-    if (!(at.below > 0)) return false;
-    const double t = at.above / at.below;
-    if (!(t >= -rounding) || t > 1 + rounding) return false;
-    const Corner* corners[3] = {&gate.a, &gate.b, &gate.c};
-    const double weights[3] = {area(gate.b, gate.c), area(gate.c, gate.a), area(gate.a, gate.b)};
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            if (corners[j]->vertex == triangle.v[i]) out.weight[i] = weights[j] / at.below;
-    out.point = p + std::clamp(t, 0.0, 1.0) * (q - p);
-    return true;
+// Goes from the facets by which lines enter tetrahedra, whose fourth corners are apexes, to those by which
+// they leave. By rounding alone, there may be none.
+std::uint64_t NextGates(WalkLanes& walks, std::uint64_t active) {
+    std::uint64_t all_found = 0;
+    for (std::size_t i = 0; i < walk_group; i += lane_count) {
+        if (!HaveWalks(active, i)) continue;
+        const Corner apex = InFrame(walks, 0, i);
+        const Gate in{LoadCorner(walks.corner[1], i), LoadCorner(walks.corner[2], i),
+                      LoadCorner(walks.corner[3], i)};
+        const M a = Left(apex, in[0]), b = Left(apex, in[1]), c = Left(apex, in[2]);
+        const M by_ab = AndNot(b, a), by_bc = AndNot(c, b), by_ca = AndNot(a, c); // at most one
+        const Gate out{apex, Select(by_ab, in[0], Select(by_bc, in[1], in[2])),
+                       Select(by_ab, in[1], Select(by_bc, in[2], in[0]))};
+        const D behind = IfThenElse(by_ab, in[2].vertex, IfThenElse(by_bc, in[0].vertex, in[1].vertex));
+        all_found |= TakeGates(out, behind, Or(by_ab, Or(by_bc, by_ca)), i, walks);
+    }
+    return all_found & active;
 }
 
-// A walk that is under way. What it does for each tetrahedron is cut where it waits for memory, so that many
-// walks side by side wait together.
-class Steps {
+} // namespace walks
+using walks::FirstGates;
+using walks::NextGates;
+
+} // namespace HWY_NAMESPACE
+} // namespace vox::depth
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace vox::depth {
+
+namespace {
+
+// Calls visit(i) for each bit i that is set.
+template <class Visit>
+void for_each_bit(std::uint64_t bits, Visit&& visit) {
+    for (; bits; bits &= bits - 1) visit(static_cast<std::size_t>(std::countr_zero(bits)));
+}
+
+// Walks side by side. Each pass over them prefetches what the next one reads.
+class WalkGroup {
 public:
-    // True if there is a first tetrahedron to leave.
-    bool begin(const Solid& solid, Walk& walk) {
-        walk_ = &walk;
-        walk.leaves = false;
-        walk.visited = 0;
-        tet_ = walk.tet;
-        frame_ = Frame(walk.p, walk.q);
-        remembered_tet_ = ~0u;
-        remembered_behind_ = 0;
-        remember_at_ = 1;
-        return frame_.is_usable() && first_gate(frame_, solid, solid.tets[tet_], gate_);
-    }
+    WalkGroup(const Solid& solid, std::span<Walk> walks)
+        : solid_(solid), topology_(*solid.topology), walks_(walks) {}
 
-    // Finds out what lies across the gate, and prefetches it.
-    void look_across(const Solid& solid) {
-        const std::uint32_t* v = solid.tets[tet_].v;
-        // Without branches, which would be mispredicted.
-        const auto facet = (v[1] == gate_.behind ? 1u : 0u) | (v[2] == gate_.behind ? 2u : 0u) |
-                           (v[3] == gate_.behind ? 3u : 0u);
-        across_ = solid.topology->across(tet_, facet);
-        if (across_ & Topology::surface_bit)
-            prefetch(solid.topology->triangles.data() + (across_ & ~Topology::surface_bit));
-        else
-            prefetch(&solid.tets[across_]);
-    }
-
-    // Finds the vertex behind the tetrahedron there, if it is one, and prefetches its position.
-    void look_at_apex(const Solid& solid) {
-        if (across_ & Topology::surface_bit) return; // also `nothing`
-        const std::uint32_t* v = solid.tets[across_].v;
-        apex_ = v[0] ^ v[1] ^ v[2] ^ v[3] ^ gate_.a.vertex ^ gate_.b.vertex ^ gate_.c.vertex;
-        prefetch(solid.positions.place_of(apex_));
-        prefetch(solid.topology->across.place_of(across_));
-    }
-
-    // Goes there; false where the walk ends.
-    bool go_across(const Solid& solid) {
-        // Inverted tetrahedra may lead the walk back to where it was. Then it would go round for ever, since
-        // the facet by which it leaves decides all that follows. To find that out, a place is remembered
-        // after 1, 2, 4, ... steps (R. P. Brent, "An improved Monte Carlo factorization algorithm", BIT 20,
-        // 1980).
-        ++walk_->visited;
-        if (tet_ == remembered_tet_ && gate_.behind == remembered_behind_) return false;
-        if (walk_->visited == remember_at_) {
-            remembered_tet_ = tet_;
-            remembered_behind_ = gate_.behind;
-            remember_at_ *= 2;
+    void run() {
+        for (const Walk& walk : walks_) {
+            prefetch(&solid_.tets[walk.tet]);
+            prefetch(topology_.across.place_of(walk.tet));
         }
-        if (across_ == Topology::nothing) return false;
-        if (across_ & Topology::surface_bit) {
-            SurfacePoint& exit = walk_->exit;
-            exit.triangle = across_ & ~Topology::surface_bit;
-            walk_->leaves =
-                cross_surface(gate_, walk_->p, walk_->q, solid.topology->triangles[exit.triangle], exit);
-            return false;
+        // Whole registers are computed, so the last one is filled up.
+        for (std::size_t i = 0; i < walks_.size() || i % walk_register; ++i)
+            begin(i, walks_[std::min(i, walks_.size() - 1)]);
+        const auto next_gates = VOX_SIMD_DISPATCH(NextGates);
+        std::uint64_t active =
+            VOX_SIMD_DISPATCH(FirstGates)(lanes_, ~std::uint64_t{0} >> (walk_group - walks_.size()));
+        while (active) {
+            for_each_bit(active, [&](std::size_t i) { look_across(i); });
+            std::uint64_t going_on = 0;
+            for_each_bit(active, [&](std::size_t i) { going_on |= std::uint64_t{go_across(i)} << i; });
+            active = next_gates(lanes_, going_on);
         }
-        const Ratio at = height(gate_);
-        if (at.above > at.below) return false; // q is passed
-        if (!to_next_gate(gate_, frame_(solid, apex_))) return false;
-        tet_ = across_;
-        return true;
     }
 
 private:
-    // They have no values before begin(), as there are many.
-    Walk* walk_;
-    Frame frame_;
-    Gate gate_;
-    std::uint32_t tet_, across_, apex_;
-    std::uint32_t remembered_tet_, remembered_behind_;
-    std::uint64_t remember_at_;
+    // Where a walk is, and where it was.
+    struct Trail {
+        std::uint32_t tet, behind, across, gate; // `gate`: exclusive or of its vertices
+        std::uint32_t remembered_tet, remembered_behind;
+        const std::uint8_t* row; // of each axis in the walk's frame
+    };
+
+    // Writes a vector in the order of the walk's frame.
+    void put(const Vec3d& v, std::size_t i, double (*to)[walk_group]) const {
+        const std::uint8_t* row = trails_[i].row;
+        to[row[0]][i] = v.x;
+        to[row[1]][i] = v.y;
+        to[row[2]][i] = v.z;
+    }
+    void put_corner(std::uint32_t vertex, std::size_t i, std::size_t c) {
+        put(solid_.at(vertex), i, lanes_.corner[c]);
+        lanes_.corner[c][3][i] = vertex;
+    }
+
+    void begin(std::size_t i, Walk& walk) {
+        static constexpr std::uint8_t rows[3][3] = {{2, 0, 1}, {1, 2, 0}, {0, 1, 2}};
+        const Vec3d way = walk.q - walk.p;
+        const double x = std::abs(way.x), y = std::abs(way.y);
+        const int longest = std::abs(way.z) > std::max(x, y) ? 2 : y > x ? 1 : 0;
+        trails_[i] = {walk.tet, 0, 0, 0, ~0u, 0, rows[longest]};
+        walk.leaves = false;
+        walk.visited = 0;
+        put(walk.p, i, lanes_.origin);
+        put(way, i, lanes_.way);
+        for (std::size_t c = 0; c < 4; ++c) put_corner(solid_.tets[walk.tet].v[c], i, c);
+    }
+
+    // Finds out what lies across the gate, and prefetches it.
+    void look_across(std::size_t i) {
+        Trail& trail = trails_[i];
+        const std::uint32_t* v = solid_.tets[trail.tet].v;
+        const auto behind = static_cast<std::uint32_t>(lanes_.corner[0][3][i]);
+        // Without branches, which would be mispredicted.
+        const auto facet =
+            (v[1] == behind ? 1u : 0u) | (v[2] == behind ? 2u : 0u) | (v[3] == behind ? 3u : 0u);
+        trail.behind = behind;
+        trail.gate = v[0] ^ v[1] ^ v[2] ^ v[3] ^ behind;
+        trail.across = topology_.across(trail.tet, facet);
+        if (trail.across & Topology::surface_bit)
+            prefetch(topology_.triangles.data() + (trail.across & ~Topology::surface_bit));
+        else
+            prefetch(&solid_.tets[trail.across]);
+    }
+
+    // Returns whether the walk goes on in the tetrahedron across the gate.
+    bool go_across(std::size_t i) {
+        Trail& trail = trails_[i];
+        // Inverted tetrahedra may lead a walk back to where it was. Then it would go round for ever, since
+        // the facet by which it leaves decides all that follows. To find out, a place is remembered after 1,
+        // 2, 4, ... steps (R. P. Brent, "An improved Monte Carlo factorization algorithm", BIT 20, 1980).
+        const std::uint64_t steps = ++walks_[i].visited;
+        if (trail.tet == trail.remembered_tet && trail.behind == trail.remembered_behind) return false;
+        if ((steps & (steps - 1)) == 0) {
+            trail.remembered_tet = trail.tet;
+            trail.remembered_behind = trail.behind;
+        }
+        if (trail.across == Topology::nothing) return false;
+        if (trail.across & Topology::surface_bit) {
+            leave(i, trail.across & ~Topology::surface_bit);
+            return false;
+        }
+        if (lanes_.above[i] > lanes_.below[i]) return false; // q is passed
+        const std::uint32_t* v = solid_.tets[trail.across].v;
+        put_corner(v[0] ^ v[1] ^ v[2] ^ v[3] ^ trail.gate, i, 0);
+        trail.tet = trail.across;
+        prefetch(topology_.across.place_of(trail.tet));
+        return true;
+    }
+
+    // Sets where the line crosses the surface, if that is between p and q.
+    void leave(std::size_t i, std::uint32_t triangle) {
+        constexpr double rounding = 1e-9; // of the length of the segment
+        Walk& walk = walks_[i];
+        const double below = lanes_.below[i], t = lanes_.above[i] / below;
+        walk.leaves = below > 0 && t >= -rounding && t <= 1 + rounding;
+        walk.exit.triangle = triangle;
+        walk.exit.point = walk.p + std::clamp(t, 0.0, 1.0) * (walk.q - walk.p);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double vertex = topology_.triangles[triangle].v[c];
+            const auto k =
+                (lanes_.corner[2][3][i] == vertex ? 1u : 0u) | (lanes_.corner[3][3][i] == vertex ? 2u : 0u);
+            walk.exit.weight[c] = lanes_.weight[k][i] / below;
+        }
+    }
+
+    const Solid& solid_;
+    const Topology& topology_;
+    std::span<Walk> walks_;
+    Trail trails_[walk_group];
+    WalkLanes lanes_;
 };
 
 } // namespace
 
 void walk_out(const Solid& solid, std::span<Walk> walks) {
-    constexpr std::size_t side_by_side = 64;
-    std::array<Steps, side_by_side> steps;
-    for (; !walks.empty(); walks = walks.subspan(std::min(side_by_side, walks.size()))) {
-        const std::span<Walk> some = walks.first(std::min(side_by_side, walks.size()));
-        for (const Walk& walk : some) {
-            prefetch(&solid.tets[walk.tet]);
-            prefetch(solid.topology->across.place_of(walk.tet));
-        }
-        for (const Walk& walk : some)
-            for (const std::uint32_t v : solid.tets[walk.tet].v) prefetch(solid.positions.place_of(v));
-        std::array<std::uint8_t, side_by_side> going_on;
-        std::size_t count = 0;
-        for (std::size_t i = 0; i < some.size(); ++i) {
-            going_on[count] = static_cast<std::uint8_t>(i);
-            count += steps[i].begin(solid, some[i]);
-        }
-        while (count > 0) {
-            for (std::size_t i = 0; i < count; ++i) steps[going_on[i]].look_across(solid);
-            for (std::size_t i = 0; i < count; ++i) steps[going_on[i]].look_at_apex(solid);
-            const std::size_t before = std::exchange(count, 0);
-            for (std::size_t i = 0; i < before; ++i) {
-                const std::uint8_t walk = going_on[i];
-                going_on[count] = walk;
-                count += steps[walk].go_across(solid);
-            }
-        }
-    }
+    for (; !walks.empty(); walks = walks.subspan(std::min(walk_group, walks.size())))
+        WalkGroup(solid, walks.first(std::min(walk_group, walks.size()))).run();
 }
 
 bool walk_out(const Solid& solid, std::uint32_t tet, const Vec3d& p, const Vec3d& q, SurfacePoint& out,
               std::uint64_t& visited) {
     Walk walk{p, q, tet, false, 0, {}};
-    Steps steps;
-    for (bool goes_on = steps.begin(solid, walk); goes_on; goes_on = steps.go_across(solid)) {
-        steps.look_across(solid);
-        steps.look_at_apex(solid);
-    }
+    walk_out(solid, std::span(&walk, 1));
     visited += walk.visited;
     if (walk.leaves) out = walk.exit;
     return walk.leaves;
 }
 
 } // namespace vox::depth
+#endif

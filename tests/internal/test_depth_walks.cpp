@@ -1,6 +1,7 @@
-// What the depth stage does for many at once against the same one by one: walks. And the records of vertices
-// and the tables of places against plain containers.
+// What the depth stage does for many at once against the same one by one: walks at every SIMD level. And the
+// records of vertices and the tables of places against plain containers.
 #include "base/place_map.hpp"
+#include "base/simd.hpp"
 #include "base/vectors.hpp"
 #include "depth/walk.hpp"
 #include "internal/scenes.hpp"
@@ -92,20 +93,29 @@ START_TEST(walks_side_by_side) {
                       Positions{reinterpret_cast<const std::byte*>(mesh.positions.data()), sizeof(Vec3f)}};
     std::size_t left = 0;
     for (const std::size_t count : {1u, 2u, 7u, 8u, 9u, 63u, 64u, 65u, 300u}) {
-        std::vector<Walk> walks = some_walks(random, mesh, count);
-        walk_out(solid, walks);
-        for (const Walk& walk : walks) {
-            SurfacePoint exit{};
-            std::uint64_t visited = 0;
-            const bool leaves = walk_out(solid, walk.tet, walk.p, walk.q, exit, visited);
-            ck_assert_msg(walk.leaves == leaves && walk.visited == visited,
-                          "leaves %d, expected %d; visited %llu, expected %llu", walk.leaves, leaves,
-                          static_cast<unsigned long long>(walk.visited),
-                          static_cast<unsigned long long>(visited));
-            ck_assert_msg(!leaves || same_bits(walk.exit, exit), "another exit");
-            left += leaves;
+        std::vector<Walk> one_by_one = some_walks(random, mesh, count);
+        const std::vector<Walk> asked = one_by_one;
+        simd::force_level(simd::least_level);
+        for (Walk& walk : one_by_one)
+            walk.leaves = walk_out(solid, walk.tet, walk.p, walk.q, walk.exit, walk.visited);
+        for (const simd::Level level : {simd::least_level, simd::Level::avx2, simd::Level::avx512}) {
+            if (simd::force_level(level) != level) continue;
+            std::vector<Walk> walks = asked;
+            walk_out(solid, walks);
+            for (std::size_t i = 0; i < count; ++i) {
+                const Walk &walk = walks[i], &expected = one_by_one[i];
+                ck_assert_msg(walk.leaves == expected.leaves && walk.visited == expected.visited,
+                              "%s: leaves %d, expected %d; visited %llu, expected %llu",
+                              simd::level_name(level), walk.leaves, expected.leaves,
+                              static_cast<unsigned long long>(walk.visited),
+                              static_cast<unsigned long long>(expected.visited));
+                ck_assert_msg(!walk.leaves || same_bits(walk.exit, expected.exit), "%s: another exit",
+                              simd::level_name(level));
+                left += walk.leaves;
+            }
         }
     }
+    simd::force_level(simd::best_level());
     ck_assert_uint_gt(left, 20);
 }
 END_TEST
