@@ -38,8 +38,8 @@ struct FaceSlabs {
     void set(std::size_t i, const Vec3d& a, const Vec3d& b, const Vec3d& c) noexcept;
 };
 
-// Takes faces out of `met` along an axis of which both ends of a segment lie beyond the face, on the same side,
-// by more than `reach`. That covers what is rounded here: 2^-19 of the largest coordinate.
+// Takes faces out of `met` along an axis of which both ends of a segment lie beyond the face, on the same
+// side, by more than `reach`. That covers what is rounded here: 2^-19 of the largest coordinate.
 struct Segment {
     Vec3d from, to;
 };

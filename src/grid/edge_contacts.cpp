@@ -133,9 +133,13 @@ void EdgeContacts::search(const StepScene& scene, const fast::Pair& pair, const 
         const auto enter = [&](std::size_t group) {
             return !worker.is_crowded || !stay_apart(worker.oriented_a, worker.oriented_groups[group], reach);
         };
+        const auto is_apart = [&](std::size_t j) {
+            worker.across = cross(worker.oriented_a.axis[0], worker.oriented_b[j].axis[0]);
+            return stay_apart(worker.oriented_a, worker.oriented_b[j], reach);
+        };
         tiles.boxes_b.for_overlaps(box, enter, [&](std::size_t j) {
             if (is_self && j < i) return;
-            if (worker.is_crowded && stay_apart(worker.oriented_a, worker.oriented_b[j], reach)) return;
+            if (worker.is_crowded && is_apart(j)) return;
             if (certified) {
                 Box common = box;
                 intersect(common, tiles.boxes_b.boxes[j]);
@@ -146,7 +150,7 @@ void EdgeContacts::search(const StepScene& scene, const fast::Pair& pair, const 
             const auto test_apart = [&](LoadedTile& edges, LoadedTile& faces) {
                 if (test(scene, edges, faces, worker)) return false;
                 orient(pair, tiles.tiles_a[i], tiles, worker);
-                if (stay_apart(worker.oriented_a, worker.oriented_b[j], reach)) return true;
+                if (is_apart(j)) return true;
                 (void)test(scene, edges, faces, worker);
                 return false;
             };
@@ -222,7 +226,14 @@ bool EdgeContacts::test(const StepScene& scene, LoadedTile& edges, LoadedTile& f
                            tile->points.data());
         tile->has_points = true;
     }
-    if (pairs > crowd) keep_near_edges(edges, std::span(near).first(count), faces, met.data());
+    if (pairs > crowd) {
+        const auto points = [](const LoadedTile& of) {
+            return std::span(of.points).first(of.tile->vertex_count);
+        };
+        const double reach = double{bodies_[edges.body].grow} + double{bodies_[faces.body].grow};
+        if (apart_along(worker.across, points(edges), points(faces), reach)) return true;
+        keep_near_edges(edges, std::span(near).first(count), faces, met.data());
+    }
     const bool is_self = edges.body == faces.body;
     for (std::uint32_t i = 0; i < count; ++i) {
         const std::uint32_t edge = near[i];

@@ -101,6 +101,7 @@ private:
         // Whether the one of body a is crowded, and then its oriented box, and those of boxes_b.
         bool is_crowded = false;
         OrientedBox oriented_a;
+        Vec3d across; // the lengths of it and of the one of body b
         Array<OrientedBox> oriented_b, oriented_groups;
         // Where an edge passes through faces of a mesh, ascending, as fractions of its way: for depths.
         Array<double> crossed_at;

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace vox {
 
@@ -90,6 +91,23 @@ bool stay_apart(const OrientedBox& a, const OrientedBox& b, double reach) noexce
         for (const Vec3d& v : b.axis)
             if (apart_along(normalised(cross(u, v)), a, b, reach)) return true;
     return false;
+}
+
+bool apart_along(const Vec3d& axis, std::span<const Vec3d> a, std::span<const Vec3d> b,
+                 double reach) noexcept {
+    const Vec3d w = normalised(axis);
+    const auto range = [&](std::span<const Vec3d> points) {
+        double low = dot(w, points[0] - a[0]), high = low;
+        for (const Vec3d& p : points.subspan(1)) {
+            const double at = dot(w, p - a[0]);
+            low = std::min(low, at);
+            high = std::max(high, at);
+        }
+        return std::pair(low, high);
+    };
+    const auto [low_a, high_a] = range(a);
+    const auto [low_b, high_b] = range(b);
+    return low_a - high_b > reach || low_b - high_a > reach;
 }
 
 } // namespace vox

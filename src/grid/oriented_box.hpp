@@ -34,9 +34,12 @@ inline OrientedBox oriented_box(const Box& box) noexcept {
     return {0.5 * lo + 0.5 * hi, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {half.x, half.y, half.z}};
 }
 
-// Whether two are certainly further apart than `reach`, which is more than 2^-22 times the largest coordinate.
-// The first asks the axes of `a` alone, which is enough where `b` is small.
+// Whether two are certainly further apart than `reach`, which is more than 2^-22 times the largest
+// coordinate. The first asks the axes of `a` alone, which is enough where `b` is small.
 bool apart_along_axes(const OrientedBox& a, const OrientedBox& b, double reach) noexcept;
 bool stay_apart(const OrientedBox& a, const OrientedBox& b, double reach) noexcept;
+// Likewise for points, along one axis.
+bool apart_along(const Vec3d& axis, std::span<const Vec3d> a, std::span<const Vec3d> b,
+                 double reach) noexcept;
 
 } // namespace vox

@@ -256,7 +256,8 @@ void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Lists& lists, 
             count = 0;
         };
         const auto enter = [&](std::size_t group) {
-            return !is_apart(lists.runs.groups[group]) && (!is_moving || may_meet(lists.moving_groups[group]));
+            return !is_apart(lists.runs.groups[group]) &&
+                   (!is_moving || may_meet(lists.moving_groups[group]));
         };
         lists.runs.for_overlaps(box, enter, [&](std::size_t run) {
             if (is_apart(lists.runs.boxes[run]) || (is_moving && !may_meet(lists.moving_runs[run]))) return;
