@@ -1,7 +1,6 @@
 #include "grid/box_lanes.hpp"
 
 #include "base/simd.hpp"
-#include "grid/oriented_box.hpp"
 
 #undef VOX_SOURCE
 #define VOX_SOURCE "grid/box_lanes.cpp"
@@ -81,20 +80,6 @@ void find_faces(const Box* boxes, std::size_t count, const FaceBoxes& faces, std
 void keep_near(const Segment* segments, std::size_t count, const FaceSlabs& faces, float reach,
                std::uint32_t* met) noexcept {
     VOX_SIMD_DISPATCH(KeepNear)(segments, count, faces, reach, met);
-}
-
-void FaceSlabs::set(std::size_t i, const Vec3d& a, const Vec3d& b, const Vec3d& c) noexcept {
-    const Vec3d corners[] = {a, b, c};
-    const OrientedBox box = oriented_box(corners, longest_edge(a, b, c));
-    for (std::size_t k = 0; k < 3; ++k) {
-        const Vec3f along = nearest_floats(box.axis[k]);
-        const double middle = dot(box.axis[k], box.middle);
-        axis[k][0][i] = along.x;
-        axis[k][1][i] = along.y;
-        axis[k][2][i] = along.z;
-        lo[k][i] = static_cast<float>(middle - box.half[k]);
-        hi[k][i] = static_cast<float>(middle + box.half[k]);
-    }
 }
 
 } // namespace vox

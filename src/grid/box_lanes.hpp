@@ -28,14 +28,11 @@ struct FaceBoxes {
 void find_faces(const Box* boxes, std::size_t count, const FaceBoxes& faces, std::uint32_t face_count,
                 std::uint32_t* out) noexcept;
 
-// What oriented boxes of faces hold along their axes, as seen from `origin`.
+// Oriented boxes of the faces, as seen from `origin`.
 struct FaceSlabs {
     Vec3d origin;
     alignas(64) float axis[3][3][FaceBoxes::count] = {}; // axis, coordinate, face
     alignas(64) float lo[3][FaceBoxes::count] = {}, hi[3][FaceBoxes::count] = {};
-
-    // The corners of a face, from the origin on.
-    void set(std::size_t i, const Vec3d& a, const Vec3d& b, const Vec3d& c) noexcept;
 };
 
 // Takes faces out of `met` along an axis of which both ends of a segment lie beyond the face, on the same

@@ -130,14 +130,10 @@ void EdgeContacts::search(const StepScene& scene, const fast::Pair& pair, const 
         const Box& box = bodies_.tile_boxes(pair.a)[tiles.tiles_a[i]];
         bool is_loaded = false;
         worker.is_crowded = false;
-        const auto enter = [&](std::size_t group) {
-            return !worker.is_crowded || !stay_apart(worker.oriented_a, worker.oriented_groups[group], reach);
-        };
         const auto is_apart = [&](std::size_t j) {
-            worker.across = cross(worker.oriented_a.axis[0], worker.oriented_b[j].axis[0]);
             return stay_apart(worker.oriented_a, worker.oriented_b[j], reach);
         };
-        tiles.boxes_b.for_overlaps(box, enter, [&](std::size_t j) {
+        tiles.boxes_b.for_overlaps(box, [&](std::size_t j) {
             if (is_self && j < i) return;
             if (worker.is_crowded && is_apart(j)) return;
             if (certified) {
@@ -171,12 +167,6 @@ void EdgeContacts::orient(const fast::Pair& pair, std::uint32_t tile_a, const Wo
     reserve_growing(worker.oriented_b, tiles.tiles_b.size());
     for (const std::uint32_t tile : tiles.tiles_b)
         worker.oriented_b.push_back(oriented_box(bodies_[pair.b], tile));
-    worker.oriented_groups.clear();
-    reserve_growing(worker.oriented_groups, tiles.boxes_b.groups.size());
-    const std::span<const OrientedBox> all(worker.oriented_b);
-    for (std::size_t first = 0; first < all.size(); first += most_oriented)
-        worker.oriented_groups.push_back(
-            oriented_box(all.subspan(first, std::min(most_oriented, all.size() - first))));
 }
 
 void EdgeContacts::load(std::uint32_t body, std::uint32_t index, LoadedTile& out) const {
@@ -227,12 +217,13 @@ bool EdgeContacts::test(const StepScene& scene, LoadedTile& edges, LoadedTile& f
         tile->has_points = true;
     }
     if (pairs > crowd) {
-        const auto points = [](const LoadedTile& of) {
-            return std::span(of.points).first(of.tile->vertex_count);
-        };
-        const double reach = double{bodies_[edges.body].grow} + double{bodies_[faces.body].grow};
-        if (apart_along(worker.across, points(edges), points(faces), reach)) return true;
-        keep_near_edges(edges, std::span(near).first(count), faces, met.data());
+        if (!faces.has_slabs) load_slabs(*faces.features, *faces.tile, faces.points.data(), faces.slabs);
+        faces.has_slabs = true;
+        std::array<Segment, SurfaceTile::most_edges> segments;
+        for (std::uint32_t i = 0; i < count; ++i)
+            segments[i] = {edges.points[edges.ends[near[i]][0]], edges.points[edges.ends[near[i]][1]]};
+        keep_near(segments.data(), count, faces.slabs,
+                  16 * (bodies_[edges.body].grow + bodies_[faces.body].grow), met.data());
     }
     const bool is_self = edges.body == faces.body;
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -261,20 +252,6 @@ bool EdgeContacts::test(const StepScene& scene, LoadedTile& edges, LoadedTile& f
         }
     }
     return true;
-}
-
-// Leaves out faces that are not near along an axis of their own.
-void EdgeContacts::keep_near_edges(const LoadedTile& edges, std::span<const std::uint32_t> near,
-                                   LoadedTile& faces, std::uint32_t* met) const {
-    if (!faces.has_slabs) load_slabs(*faces.features, *faces.tile, faces.points.data(), faces.slabs);
-    faces.has_slabs = true;
-    std::array<Segment, SurfaceTile::most_edges> segments;
-    for (std::size_t i = 0; i < near.size(); ++i) {
-        const auto& [u, v] = edges.ends[near[i]];
-        segments[i] = {edges.points[u], edges.points[v]};
-    }
-    keep_near(segments.data(), near.size(), faces.slabs,
-              lanes_reach(bodies_[edges.body], bodies_[faces.body], 0), met);
 }
 
 // ---- contacts -------------------------------------------------------------------------------------

@@ -87,10 +87,9 @@ private:
 
         explicit Worker(std::pmr::memory_resource* memory)
             : tiles_a(memory), tiles_b(memory), boxes_b(memory), loaded(memory), oriented_b(memory),
-              oriented_groups(memory), crossed_at(memory) {}
+              crossed_at(memory) {}
         auto buffers() {
-            return std::tuple_cat(boxes_b.buffers(),
-                                  std::tie(tiles_a, tiles_b, oriented_b, oriented_groups, crossed_at));
+            return std::tuple_cat(boxes_b.buffers(), std::tie(tiles_a, tiles_b, oriented_b, crossed_at));
         }
 
         // Tiles of the two bodies of a pair that may meet the other one.
@@ -101,8 +100,7 @@ private:
         // Whether the one of body a is crowded, and then its oriented box, and those of boxes_b.
         bool is_crowded = false;
         OrientedBox oriented_a;
-        Vec3d across; // the lengths of it and of the one of body b
-        Array<OrientedBox> oriented_b, oriented_groups;
+        Array<OrientedBox> oriented_b;
         // Where an edge passes through faces of a mesh, ascending, as fractions of its way: for depths.
         Array<double> crossed_at;
         std::uint64_t candidates = 0, exact_tests = 0;
@@ -122,8 +120,6 @@ private:
     void orient(const fast::Pair& pair, std::uint32_t tile_a, const Worker& tiles, Worker& worker) const;
     void load(std::uint32_t body, std::uint32_t tile, LoadedTile& out) const;
     bool test(const StepScene& scene, LoadedTile& edges, LoadedTile& faces, Worker& worker);
-    void keep_near_edges(const LoadedTile& edges, std::span<const std::uint32_t> near, LoadedTile& faces,
-                         std::uint32_t* met) const;
     void decide(const StepScene& scene, const LoadedTile& edges, std::size_t edge, const LoadedTile& faces,
                 std::size_t face, Worker& worker);
     void put_in_order();

@@ -5,10 +5,7 @@
 #include "grid/oriented_box.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
-#include <utility>
 
 namespace vox {
 
@@ -30,11 +27,7 @@ OrientedBox oriented_box(std::span<const Vec3d> points, const Vec3d& along) noex
     OrientedBox box{};
     box.axis[0] = normalised(along);
     if (!(dot(box.axis[0], box.axis[0]) > 0)) box.axis[0] = {1, 0, 0};
-    const Vec3d size{std::abs(box.axis[0].x), std::abs(box.axis[0].y), std::abs(box.axis[0].z)};
-    const Vec3d least = size.x <= std::min(size.y, size.z) ? Vec3d{1, 0, 0}
-                        : size.y <= size.z                 ? Vec3d{0, 1, 0}
-                                                           : Vec3d{0, 0, 1};
-    Vec3d across = cross(box.axis[0], least);
+    Vec3d across = cross(box.axis[0], std::abs(box.axis[0].x) < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0});
     double most = 0;
     for (const Vec3d& p : points) {
         const Vec3d from_first = p - points[0], c = cross(box.axis[0], from_first);
@@ -59,27 +52,6 @@ OrientedBox oriented_box(std::span<const Vec3d> points, const Vec3d& along) noex
     return box;
 }
 
-OrientedBox oriented_box(std::span<const OrientedBox> boxes) noexcept {
-    std::array<Vec3d, 8 * most_oriented> corners;
-    std::size_t count = 0;
-    Vec3d along{0, 0, 0};
-    double longest = 0;
-    for (const OrientedBox& box : boxes) {
-        for (unsigned corner = 0; corner < 8; ++corner) {
-            Vec3d at = box.middle;
-            for (unsigned i = 0; i < 3; ++i)
-                at = at + (corner >> i & 1 ? box.half[i] : -box.half[i]) * box.axis[i];
-            corners[count++] = at;
-        }
-        for (int i = 0; i < 3; ++i)
-            if (box.half[i] > longest) {
-                longest = box.half[i];
-                along = box.axis[i];
-            }
-    }
-    return oriented_box(std::span(corners).first(count), along);
-}
-
 bool apart_along_axes(const OrientedBox& a, const OrientedBox& b, double reach) noexcept {
     return apart_along(a.axis[0], a, b, reach) || apart_along(a.axis[1], a, b, reach) ||
            apart_along(a.axis[2], a, b, reach);
@@ -91,23 +63,6 @@ bool stay_apart(const OrientedBox& a, const OrientedBox& b, double reach) noexce
         for (const Vec3d& v : b.axis)
             if (apart_along(normalised(cross(u, v)), a, b, reach)) return true;
     return false;
-}
-
-bool apart_along(const Vec3d& axis, std::span<const Vec3d> a, std::span<const Vec3d> b,
-                 double reach) noexcept {
-    const Vec3d w = normalised(axis);
-    const auto range = [&](std::span<const Vec3d> points) {
-        double low = dot(w, points[0] - a[0]), high = low;
-        for (const Vec3d& p : points.subspan(1)) {
-            const double at = dot(w, p - a[0]);
-            low = std::min(low, at);
-            high = std::max(high, at);
-        }
-        return std::pair(low, high);
-    };
-    const auto [low_a, high_a] = range(a);
-    const auto [low_b, high_b] = range(b);
-    return low_a - high_b > reach || low_b - high_a > reach;
 }
 
 } // namespace vox

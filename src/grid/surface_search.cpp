@@ -70,7 +70,15 @@ void load_slabs(const SurfaceFeatures& features, const SurfaceTile& tile, const 
     out.origin = points[0];
     for (std::uint32_t f = 0; f < tile.face_count; ++f) {
         const auto& [a, b, c] = features.faces[tile.first_face + f];
-        out.set(f, points[a] - out.origin, points[b] - out.origin, points[c] - out.origin);
+        const Vec3d corners[] = {points[a] - out.origin, points[b] - out.origin, points[c] - out.origin};
+        const OrientedBox box = oriented_box(corners, longest_edge(corners[0], corners[1], corners[2]));
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double w[3] = {box.axis[k].x, box.axis[k].y, box.axis[k].z},
+                         at = dot(box.axis[k], box.middle);
+            for (std::size_t i = 0; i < 3; ++i) out.axis[k][i][f] = static_cast<float>(w[i]);
+            out.lo[k][f] = static_cast<float>(at - box.half[k]);
+            out.hi[k][f] = static_cast<float>(at + box.half[k]);
+        }
     }
 }
 

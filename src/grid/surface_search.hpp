@@ -53,7 +53,7 @@ float growth(const Box& box, double margin) noexcept;
 
 // A tile of which as many features overlap others, by their boxes, in one look is crowded: it is worth an
 // oriented box. Slivers laid across each other overlap all, and touch nothing.
-inline constexpr std::uint32_t crowd = 256;
+inline constexpr std::uint32_t crowd = 512;
 inline std::uint32_t count_pairs(std::span<const std::uint32_t> met) noexcept {
     std::uint32_t pairs = 0;
     for (const std::uint32_t bits : met) pairs += static_cast<std::uint32_t>(std::popcount(bits));
@@ -116,11 +116,6 @@ inline void load_still(const SearchedBody& body, const SurfaceTile& tile, Vec3d*
 OrientedBox oriented_box(const SearchedBody& body, std::uint32_t tile) noexcept;
 void load_slabs(const SurfaceFeatures& features, const SurfaceTile& tile, const Vec3d* points,
                 FaceSlabs& out) noexcept;
-
-// How far two bodies can be apart where lanes round, too.
-inline float lanes_reach(const SearchedBody& a, const SearchedBody& b, float reach) noexcept {
-    return reach + 16 * (growth(a.box, 0) + growth(b.box, 0));
-}
 
 // The bodies of one search, and the boxes of their tiles: made where others reach them, else empty.
 class SearchedBodies {

@@ -195,6 +195,7 @@ void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Lists& lists, 
     const SearchedBody &a = bodies_[pair.a], &b = bodies_[pair.b];
     const float reach = a.grow + b.grow;
     const bool is_moving = moves(pair);
+    const float lanes_reach = reach + 16 * (growth(a.box, 0) + growth(b.box, 0));
     FaceBoxes faces;
     FaceSlabs slabs;
     std::array<Segment, at_once> segments;
@@ -245,7 +246,7 @@ void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Lists& lists, 
                     const float* const p = boxes[k].lo;
                     segments[k] = {{p[0], p[1], p[2]}, {p[0], p[1], p[2]}};
                 }
-                keep_near(segments.data(), count, slabs, lanes_reach(a, b, reach), met_faces.data());
+                keep_near(segments.data(), count, slabs, lanes_reach, met_faces.data());
             }
             std::size_t found = 0;
             for (std::uint32_t k = 0; k < count; ++k) {
