@@ -35,6 +35,36 @@ void FindFaces(const Box* HWY_RESTRICT boxes, std::size_t count, const FaceBoxes
     }
 }
 
+// What is no number, or infinite, is beyond nothing: both ends are compared, rather than the larger one.
+void KeepNear(const Segment* HWY_RESTRICT segments, std::size_t count, const FaceSlabs& faces, float reach,
+              std::uint32_t* HWY_RESTRICT met) {
+    const hn::CappedTag<float, 16> d;
+    using V = hn::Vec<decltype(d)>;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (met[i] == 0) continue;
+        const Vec3f from = nearest_floats(segments[i].from - faces.origin),
+                    to = nearest_floats(segments[i].to - faces.origin);
+        std::uint64_t apart = 0;
+        for (std::size_t k = 0; k < FaceBoxes::count; k += hn::Lanes(d)) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const V x = hn::LoadU(d, faces.axis[axis][0] + k), y = hn::LoadU(d, faces.axis[axis][1] + k),
+                        z = hn::LoadU(d, faces.axis[axis][2] + k);
+                const auto along = [&](const Vec3f& p) HWY_ATTR {
+                    return hn::MulAdd(x, hn::Set(d, p.x),
+                                      hn::MulAdd(y, hn::Set(d, p.y), hn::Mul(z, hn::Set(d, p.z))));
+                };
+                const V p = along(from), q = along(to);
+                const V by = hn::Set(d, reach);
+                const V lo = hn::Sub(hn::LoadU(d, faces.lo[axis] + k), by),
+                        hi = hn::Add(hn::LoadU(d, faces.hi[axis] + k), by);
+                const auto above = hn::And(hn::Gt(p, hi), hn::Gt(q, hi));
+                apart |= BitsOfMask(d, hn::Or(above, hn::And(hn::Lt(p, lo), hn::Lt(q, lo)))) << k;
+            }
+        }
+        met[i] &= ~static_cast<std::uint32_t>(apart);
+    }
+}
+
 } // namespace HWY_NAMESPACE
 } // namespace vox
 HWY_AFTER_NAMESPACE();
@@ -45,6 +75,11 @@ namespace vox {
 void find_faces(const Box* boxes, std::size_t count, const FaceBoxes& faces, std::uint32_t face_count,
                 std::uint32_t* out) noexcept {
     VOX_SIMD_DISPATCH(FindFaces)(boxes, count, faces, face_count, out);
+}
+
+void keep_near(const Segment* segments, std::size_t count, const FaceSlabs& faces, float reach,
+               std::uint32_t* met) noexcept {
+    VOX_SIMD_DISPATCH(KeepNear)(segments, count, faces, reach, met);
 }
 
 } // namespace vox

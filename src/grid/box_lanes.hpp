@@ -1,7 +1,9 @@
-// Boxes of the faces of a tile, side by side, so that one box is compared with all of them at once.
+// Boxes of the faces of a tile, side by side, so that one box is compared with all of them at once: along the
+// coordinate axes, or along axes of each face.
 #pragma once
 
 #include "base/boxes.hpp"
+#include "base/vectors.hpp"
 #include "grid/surface_features.hpp"
 
 #include <cstddef>
@@ -25,5 +27,20 @@ struct FaceBoxes {
 // Finds, for each of the boxes, the faces whose boxes it overlaps, as bits.
 void find_faces(const Box* boxes, std::size_t count, const FaceBoxes& faces, std::uint32_t face_count,
                 std::uint32_t* out) noexcept;
+
+// Oriented boxes of the faces, as seen from `origin`.
+struct FaceSlabs {
+    Vec3d origin;
+    alignas(64) float axis[3][3][FaceBoxes::count] = {}; // axis, coordinate, face
+    alignas(64) float lo[3][FaceBoxes::count] = {}, hi[3][FaceBoxes::count] = {};
+};
+
+// Takes faces out of `met` along an axis of which both ends of a segment lie beyond the face, on the same
+// side, by more than `reach`. That covers what is rounded here: 2^-19 of the largest coordinate.
+struct Segment {
+    Vec3d from, to;
+};
+void keep_near(const Segment* segments, std::size_t count, const FaceSlabs& faces, float reach,
+               std::uint32_t* met) noexcept;
 
 } // namespace vox

@@ -87,6 +87,7 @@ void EdgeContacts::list_pairs(const StepScene& scene) {
         if (!certified || !certified->complete) pairs_of_bodies_.push_back({b, b});
     }
     bodies_.begin(scene);
+    for (std::size_t b = 0; b < bodies_.size(); ++b) bodies_[b].grow = growth(bodies_[b].box, 0);
     for (const fast::Pair& pair : pairs_of_bodies_) {
         Box common = bodies_[pair.a].box;
         intersect(common, bodies_[pair.b].box);
@@ -122,12 +123,19 @@ void EdgeContacts::search(const StepScene& scene, const fast::Pair& pair, const 
                           std::size_t begin, std::size_t end, Worker& worker) {
     const fast::CertifiedCells* const certified = certified_for(scene, pair);
     const bool is_self = pair.a == pair.b; // the lists are the same
+    const double reach = double{bodies_[pair.a].grow} + double{bodies_[pair.b].grow};
     LoadedTile& a = worker.loaded[Worker::most_loaded];
+    worker.oriented_b.clear();
     for (std::size_t i = begin; i < end; ++i) {
         const Box& box = bodies_.tile_boxes(pair.a)[tiles.tiles_a[i]];
         bool is_loaded = false;
+        worker.is_crowded = false;
+        const auto is_apart = [&](std::size_t j) {
+            return stay_apart(worker.oriented_a, worker.oriented_b[j], reach);
+        };
         tiles.boxes_b.for_overlaps(box, [&](std::size_t j) {
             if (is_self && j < i) return;
+            if (worker.is_crowded && is_apart(j)) return;
             if (certified) {
                 Box common = box;
                 intersect(common, tiles.boxes_b.boxes[j]);
@@ -135,13 +143,30 @@ void EdgeContacts::search(const StepScene& scene, const fast::Pair& pair, const 
             }
             if (!is_loaded) load(pair.a, tiles.tiles_a[i], a);
             is_loaded = true;
-            if (is_self && j == i) return test(scene, a, a, worker);
+            const auto test_apart = [&](LoadedTile& edges, LoadedTile& faces) {
+                if (test(scene, edges, faces, worker)) return false;
+                orient(pair, tiles.tiles_a[i], tiles, worker);
+                if (is_apart(j)) return true;
+                (void)test(scene, edges, faces, worker);
+                return false;
+            };
+            if (is_self && j == i) return (void)test_apart(a, a);
             LoadedTile& b = worker.loaded[(pair.b + tiles.tiles_b[j]) % Worker::most_loaded];
             if (b.body != pair.b || b.index != tiles.tiles_b[j]) load(pair.b, tiles.tiles_b[j], b);
-            test(scene, a, b, worker);
-            test(scene, b, a, worker);
+            if (!test_apart(a, b)) (void)test_apart(b, a);
         });
     }
+}
+
+// From now on, oriented boxes decide what a tile of body a is tested with.
+void EdgeContacts::orient(const fast::Pair& pair, std::uint32_t tile_a, const Worker& tiles,
+                          Worker& worker) const {
+    worker.is_crowded = true;
+    worker.oriented_a = oriented_box(bodies_[pair.a], tile_a);
+    if (!worker.oriented_b.empty()) return; // of this pair
+    reserve_growing(worker.oriented_b, tiles.tiles_b.size());
+    for (const std::uint32_t tile : tiles.tiles_b)
+        worker.oriented_b.push_back(oriented_box(bodies_[pair.b], tile));
 }
 
 void EdgeContacts::load(std::uint32_t body, std::uint32_t index, LoadedTile& out) const {
@@ -152,7 +177,7 @@ void EdgeContacts::load(std::uint32_t body, std::uint32_t index, LoadedTile& out
     out.vertices = &out.features->vertices[out.tile->first_vertex];
     out.corners = &out.features->faces[out.tile->first_face];
     out.ends = out.features->edges.data() + out.tile->first_edge;
-    out.has_points = false;
+    out.has_points = out.has_slabs = false;
     out.has_plane = 0;
     out.box = bodies_.tile_boxes(body)[index];
     TilePoints points;
@@ -165,7 +190,8 @@ void EdgeContacts::load(std::uint32_t body, std::uint32_t index, LoadedTile& out
     }
 }
 
-void EdgeContacts::test(const StepScene& scene, LoadedTile& edges, LoadedTile& faces, Worker& worker) {
+// False, and nothing done, if the two are crowded and nothing was known of that.
+bool EdgeContacts::test(const StepScene& scene, LoadedTile& edges, LoadedTile& faces, Worker& worker) {
     // Edges in the box of the faces, and the faces whose boxes these overlap, as bits.
     std::array<std::uint32_t, SurfaceTile::most_edges> near, met;
     std::array<Box, SurfaceTile::most_edges> boxes;
@@ -179,14 +205,25 @@ void EdgeContacts::test(const StepScene& scene, LoadedTile& edges, LoadedTile& f
             ++count;
         }
     }
-    if (count == 0) return;
+    if (count == 0) return true;
     find_faces(boxes.data(), count, faces.faces, faces.tile->face_count, met.data());
-    if (std::all_of(met.begin(), met.begin() + count, [](std::uint32_t bits) { return bits == 0; })) return;
+    const std::uint32_t pairs = count_pairs(std::span(met).first(count));
+    if (pairs == 0) return true;
+    if (pairs > crowd && !worker.is_crowded) return false;
     for (LoadedTile* tile : {&edges, &faces}) {
         if (!tile->has_points)
             load_positions(scene.bodies[tile->body].positions, *tile->features, *tile->tile,
                            tile->points.data());
         tile->has_points = true;
+    }
+    if (pairs > crowd) {
+        if (!faces.has_slabs) load_slabs(*faces.features, *faces.tile, faces.points.data(), faces.slabs);
+        faces.has_slabs = true;
+        std::array<Segment, SurfaceTile::most_edges> segments;
+        for (std::uint32_t i = 0; i < count; ++i)
+            segments[i] = {edges.points[edges.ends[near[i]][0]], edges.points[edges.ends[near[i]][1]]};
+        keep_near(segments.data(), count, faces.slabs,
+                  16 * (bodies_[edges.body].grow + bodies_[faces.body].grow), met.data());
     }
     const bool is_self = edges.body == faces.body;
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -214,6 +251,7 @@ void EdgeContacts::test(const StepScene& scene, LoadedTile& edges, LoadedTile& f
                 decide(scene, edges, edge, faces, face, worker);
         }
     }
+    return true;
 }
 
 // ---- contacts -------------------------------------------------------------------------------------

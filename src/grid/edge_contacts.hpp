@@ -76,23 +76,31 @@ private:
         FaceBoxes faces;
         std::array<Box, SurfaceTile::most_edges> edges;
         // Made when they are first needed.
-        bool has_points = false;
+        bool has_points = false, has_slabs = false;
         std::uint64_t has_plane = 0; // of each face, a bit
         std::array<Vec3d, SurfaceTile::most_vertices> points{};
         std::array<TrianglePlane, SurfaceTile::most_faces> planes{};
+        FaceSlabs slabs;
     };
     struct Worker {
         static constexpr std::size_t most_loaded = 16;
 
         explicit Worker(std::pmr::memory_resource* memory)
-            : tiles_a(memory), tiles_b(memory), boxes_b(memory), loaded(memory), crossed_at(memory) {}
-        auto buffers() { return std::tuple_cat(boxes_b.buffers(), std::tie(tiles_a, tiles_b, crossed_at)); }
+            : tiles_a(memory), tiles_b(memory), boxes_b(memory), loaded(memory), oriented_b(memory),
+              crossed_at(memory) {}
+        auto buffers() {
+            return std::tuple_cat(boxes_b.buffers(), std::tie(tiles_a, tiles_b, oriented_b, crossed_at));
+        }
 
         // Tiles of the two bodies of a pair that may meet the other one.
         Array<std::uint32_t> tiles_a, tiles_b;
         GroupedBoxes boxes_b; // of tiles_b
         // Tiles that were looked at last, each in its place; and one of the body whose turn it is.
         Array<LoadedTile> loaded;
+        // Whether the one of body a is crowded, and then its oriented box, and those of boxes_b.
+        bool is_crowded = false;
+        OrientedBox oriented_a;
+        Array<OrientedBox> oriented_b;
         // Where an edge passes through faces of a mesh, ascending, as fractions of its way: for depths.
         Array<double> crossed_at;
         std::uint64_t candidates = 0, exact_tests = 0;
@@ -109,8 +117,9 @@ private:
     std::size_t list_tiles(const StepScene& scene, const fast::Pair& pair, Worker& worker) const;
     void search(const StepScene& scene, const fast::Pair& pair, const Worker& tiles, std::size_t begin,
                 std::size_t end, Worker& worker);
+    void orient(const fast::Pair& pair, std::uint32_t tile_a, const Worker& tiles, Worker& worker) const;
     void load(std::uint32_t body, std::uint32_t tile, LoadedTile& out) const;
-    void test(const StepScene& scene, LoadedTile& edges, LoadedTile& faces, Worker& worker);
+    bool test(const StepScene& scene, LoadedTile& edges, LoadedTile& faces, Worker& worker);
     void decide(const StepScene& scene, const LoadedTile& edges, std::size_t edge, const LoadedTile& faces,
                 std::size_t face, Worker& worker);
     void put_in_order();

@@ -6,6 +6,22 @@
 
 namespace vox {
 
+namespace {
+
+// Positions of which nothing is known but the nearest floats are off by 2^-24 of the largest coordinate at
+// most, on each axis, and so is a side of a box that has grown.
+constexpr double rounding = 0x1p-21;
+
+} // namespace
+
+float growth(const Box& box, double margin) noexcept {
+    double largest = 0;
+    for (int i = 0; i < 3; ++i)
+        largest = std::max({largest, double{std::abs(box.lo[i])}, double{std::abs(box.hi[i])}});
+    const double by = 0.5 * margin + rounding * (largest + margin) + 0x1p-126;
+    return static_cast<float>(std::min(by, 0x1p126));
+}
+
 // Proof. At either end of the step the differences of points of a and of b fill a box around `middle` that
 // reaches `half` from it; in between, the difference of two points is on the straight way from one to the
 // other. So it stays further than `reach` from zero if along some vector w, at both ends,
@@ -34,6 +50,36 @@ bool stay_apart(const MovingBox& a, const MovingBox& b, float reach) noexcept {
     const Vec3d w = from + closest * way;
     const Vec3d size{std::abs(w.x), std::abs(w.y), std::abs(w.z)};
     return dot(w, from) > dot(size, vector_of(half[0])) && dot(w, to) > dot(size, vector_of(half[1]));
+}
+
+OrientedBox oriented_box(const SearchedBody& body, std::uint32_t index) noexcept {
+    const SurfaceTile& tile = body.features->tiles[index];
+    std::array<Vec3d, SurfaceTile::most_vertices> points;
+    load_still(body, tile, points.data());
+    Vec3d along{0, 0, 0};
+    for (std::uint32_t f = tile.first_face; f < tile.first_face + tile.face_count; ++f) {
+        const auto& [a, b, c] = body.features->faces[f];
+        const Vec3d edge = longest_edge(points[a], points[b], points[c]);
+        if (dot(edge, edge) > dot(along, along)) along = edge;
+    }
+    return oriented_box(std::span(points).first(tile.vertex_count), along);
+}
+
+void load_slabs(const SurfaceFeatures& features, const SurfaceTile& tile, const Vec3d* points,
+                FaceSlabs& out) noexcept {
+    out.origin = points[0];
+    for (std::uint32_t f = 0; f < tile.face_count; ++f) {
+        const auto& [a, b, c] = features.faces[tile.first_face + f];
+        const Vec3d corners[] = {points[a] - out.origin, points[b] - out.origin, points[c] - out.origin};
+        const OrientedBox box = oriented_box(corners, longest_edge(corners[0], corners[1], corners[2]));
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double w[3] = {box.axis[k].x, box.axis[k].y, box.axis[k].z},
+                         at = dot(box.axis[k], box.middle);
+            for (std::size_t i = 0; i < 3; ++i) out.axis[k][i][f] = static_cast<float>(w[i]);
+            out.lo[k][f] = static_cast<float>(at - box.half[k]);
+            out.hi[k][f] = static_cast<float>(at + box.half[k]);
+        }
+    }
 }
 
 void SearchedBodies::begin(const StepScene& scene) {

@@ -12,6 +12,7 @@
 #include "fast/broad_phase.hpp"
 #include "fast/step_scene.hpp"
 #include "grid/box_lanes.hpp"
+#include "grid/oriented_box.hpp"
 #include "grid/surface_features.hpp"
 
 #include <algorithm>
@@ -46,6 +47,18 @@ inline void add(MovingBox& a, const MovingBox& b) noexcept {
 // Whether two that move certainly stay further apart than `reach`, which also covers what their coordinates
 // are rounded by.
 bool stay_apart(const MovingBox& a, const MovingBox& b, float reach) noexcept;
+
+// Half of how far apart two bodies with this box can be, as boxes of floats show it.
+float growth(const Box& box, double margin) noexcept;
+
+// A tile of which as many features overlap others, by their boxes, in one look is crowded: it is worth an
+// oriented box. Slivers laid across each other overlap all, and touch nothing.
+inline constexpr std::uint32_t crowd = 512;
+inline std::uint32_t count_pairs(std::span<const std::uint32_t> met) noexcept {
+    std::uint32_t pairs = 0;
+    for (const std::uint32_t bits : met) pairs += static_cast<std::uint32_t>(std::popcount(bits));
+    return pairs;
+}
 
 // A body as a search sees it. A vertex may be anywhere on its way from `before` to `at`.
 struct SearchedBody {
@@ -91,6 +104,18 @@ private:
         return {{p[0], p[1], p[2], 0}, {p[0], p[1], p[2], 0}};
     }
 };
+
+// The vertices of a tile of a body that stands still; a box around them, along their longest edge; and their
+// faces along axes of their own.
+inline void load_still(const SearchedBody& body, const SurfaceTile& tile, Vec3d* out) noexcept {
+    for (std::uint32_t v = 0; v < tile.vertex_count; ++v) {
+        const float* const p = body.at + 3 * std::size_t{body.features->vertices[tile.first_vertex + v]};
+        out[v] = {p[0], p[1], p[2]};
+    }
+}
+OrientedBox oriented_box(const SearchedBody& body, std::uint32_t tile) noexcept;
+void load_slabs(const SurfaceFeatures& features, const SurfaceTile& tile, const Vec3d* points,
+                FaceSlabs& out) noexcept;
 
 // The bodies of one search, and the boxes of their tiles: made where others reach them, else empty.
 class SearchedBodies {

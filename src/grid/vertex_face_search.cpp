@@ -11,24 +11,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace vox {
 
 namespace {
-
-// Positions of which nothing is known but the nearest floats are off by 2^-24 of the largest coordinate at
-// most, on each axis, and so is a side of a box that has grown.
-constexpr double rounding = 0x1p-21;
-
-// Half of how far apart two bodies with this box can be, as boxes of floats show it.
-float growth(const Box& box, double margin) noexcept {
-    double largest = 0;
-    for (int i = 0; i < 3; ++i)
-        largest = std::max({largest, double{std::abs(box.lo[i])}, double{std::abs(box.hi[i])}});
-    const double by = 0.5 * margin + rounding * (largest + margin) + 0x1p-126;
-    return static_cast<float>(std::min(by, 0x1p126));
-}
 
 void check_previous(const Body& body, const Positions& previous) {
     Body moving = body;
@@ -209,7 +195,11 @@ void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Lists& lists, 
     const SearchedBody &a = bodies_[pair.a], &b = bodies_[pair.b];
     const float reach = a.grow + b.grow;
     const bool is_moving = moves(pair);
+    const float lanes_reach = reach + 16 * (growth(a.box, 0) + growth(b.box, 0));
     FaceBoxes faces;
+    FaceSlabs slabs;
+    std::array<Segment, at_once> segments;
+    std::array<Vec3d, SurfaceTile::most_vertices> corners;
     // Vertices in the box of a tile, by their places.
     std::array<std::uint32_t, at_once> places, met_faces;
     std::array<Box, at_once> boxes;
@@ -223,7 +213,11 @@ void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Lists& lists, 
             for (std::uint32_t v = 0; v < tile.vertex_count; ++v)
                 add(moving, b.moving_vertex(b.features->vertices[tile.first_vertex + v]));
         const auto may_meet = [&](const MovingBox& other) { return !stay_apart(other, moving, reach); };
-        bool is_loaded = false;
+        bool is_loaded = false, is_crowded = false, has_slabs = false;
+        OrientedBox oriented;
+        const auto is_apart = [&](const Box& other) {
+            return is_crowded && apart_along_axes(oriented, oriented_box(other), double{reach});
+        };
         std::uint32_t count = 0;
         const auto compare = [&] {
             if (!is_loaded) {
@@ -233,6 +227,27 @@ void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Lists& lists, 
             }
             is_loaded = true;
             find_faces(boxes.data(), count, faces, tile.face_count, met_faces.data());
+            const auto is_crowd = [&] {
+                return !is_moving && count_pairs(std::span(met_faces).first(count)) > crowd;
+            };
+            if (!is_crowded && is_crowd()) {
+                oriented = oriented_box(b, lists.tiles[i]);
+                is_crowded = true;
+                for (std::uint32_t k = 0; k < count; ++k)
+                    if (is_apart(boxes[k])) met_faces[k] = 0;
+            }
+            if (is_crowded && is_crowd()) {
+                if (!has_slabs) {
+                    load_still(b, tile, corners.data());
+                    load_slabs(*b.features, tile, corners.data(), slabs);
+                }
+                has_slabs = true;
+                for (std::uint32_t k = 0; k < count; ++k) {
+                    const float* const p = boxes[k].lo;
+                    segments[k] = {{p[0], p[1], p[2]}, {p[0], p[1], p[2]}};
+                }
+                keep_near(segments.data(), count, slabs, lanes_reach, met_faces.data());
+            }
             std::size_t found = 0;
             for (std::uint32_t k = 0; k < count; ++k) {
                 near[found] = {places[k], met_faces[k]};
@@ -242,14 +257,15 @@ void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Lists& lists, 
             count = 0;
         };
         const auto enter = [&](std::size_t group) {
-            return !is_moving || may_meet(lists.moving_groups[group]);
+            return !is_apart(lists.runs.groups[group]) &&
+                   (!is_moving || may_meet(lists.moving_groups[group]));
         };
         lists.runs.for_overlaps(box, enter, [&](std::size_t run) {
-            if (is_moving && !may_meet(lists.moving_runs[run])) return;
+            if (is_apart(lists.runs.boxes[run]) || (is_moving && !may_meet(lists.moving_runs[run]))) return;
             for (std::uint32_t k = lists.first_of_run[run]; k < lists.first_of_run[run + 1]; ++k) {
                 places[count] = k;
                 boxes[count] = a.vertex_box(lists.vertices[k]);
-                count += overlap(boxes[count], box) &&
+                count += overlap(boxes[count], box) && !is_apart(boxes[count]) &&
                          (!is_moving || may_meet(a.moving_vertex(lists.vertices[k])));
                 if (count == at_once) compare();
             }
