@@ -17,6 +17,7 @@
 #include "base/boxes.hpp"
 #include "internal/meshes.hpp"
 #include "program.hpp"
+#include "scenes/bodies.h"
 #include "scenes/counters.h"
 #include "stages/smooth_ball.hpp"
 #include "timing.h"
@@ -43,6 +44,9 @@ using bench::must;
 using vox::Vec3f;
 
 using Parameters = std::array<double, 4>;
+
+// The length of an edge is about 1 in all scenes but the slivers'.
+constexpr double margin = 0.5, step_length = 2;
 
 enum class What { depth, edges, margin, passages };
 constexpr const char* names[] = {"depth", "edges", "margin", "passages"};
@@ -202,21 +206,42 @@ Bodies crumple(const Setting& setting, const Parameters& p, Random& random) {
     return {self(std::move(mesh))};
 }
 
+// Sheets of slivers laid across each other: their boxes overlap, and little touches.
+Bodies slivers(const Setting& setting, const Parameters& p, Random&) {
+    Bodies bodies(2);
+    const auto count = std::uint32_t(setting.tets / 2);
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        body sheet = make_slivers(count, 200 * p[0] + 1, 0.02, 0.1 * p[1], 0.7 + double(i) * 3 * p[2]);
+        for (std::uint32_t v = 0; v < 4 * count; ++v) {
+            const float* at = sheet.positions + 3 * v;
+            bodies[i].positions.push_back({at[0], at[1], at[2] + float(i) * float(0.02 + margin * 2 * p[3])});
+        }
+        for (std::uint32_t t = 0; t < count; ++t)
+            bodies[i].tets.push_back({{4 * t, 4 * t + 1, 4 * t + 2, 4 * t + 3}});
+        free_body(&sheet);
+    }
+    return bodies;
+}
+
 struct Kind {
     const char* name;
     Bodies (*make)(const Setting&, const Parameters&, Random&);
 };
-constexpr Kind kinds[] = {{"noise", noise},           {"squash", squash},
-                          {"fling", fling},           {"fold", fold},
-                          {"crumple", crumple},       {"swallow", swallow},
-                          {"part in part", pregnant}, {"coincident", coincident},
-                          {"needles", needles},       {"noisy pair", noisy_pair},
-                          {"points", points},         {"bunny in cow", swallow_bunny}};
+constexpr Kind kinds[] = {{"noise", noise},
+                          {"squash", squash},
+                          {"fling", fling},
+                          {"fold", fold},
+                          {"crumple", crumple},
+                          {"swallow", swallow},
+                          {"part in part", pregnant},
+                          {"coincident", coincident},
+                          {"needles", needles},
+                          {"noisy pair", noisy_pair},
+                          {"points", points},
+                          {"slivers", slivers},
+                          {"bunny in cow", swallow_bunny}};
 
 // ---- measuring --------------------------------------------------------------------------------------
-
-// The length of an edge is about 1 in all scenes.
-constexpr double margin = 0.5, step_length = 2;
 
 Bodies before(Bodies bodies) {
     for (std::size_t b = 1; b < bodies.size(); b += 2)

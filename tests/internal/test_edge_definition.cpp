@@ -404,9 +404,47 @@ START_TEST(large_bodies_equal_the_definition) {
 }
 END_TEST
 
+// Sheets of slivers laid across each other, so that nearly all boxes of edges and faces overlap: what is
+// looked at is a small part of that where little crosses. Some are flat, some lie on each other, and some of
+// both sheets cross.
+START_TEST(slivers_equal_the_definition) {
+    constexpr std::uint32_t count = 100;
+    std::size_t crossing = 0;
+    Random r{5};
+    for (int scene = 0; scene < 12; ++scene) {
+        const double length = 20 + 40 * r.unit(), thick = scene % 4 == 3 ? 0 : 0.001 + 0.02 * r.unit(),
+                     spacing = scene % 5 == 4 ? 0 : 0.02 + 0.08 * r.unit(), angle = r.unit(),
+                     across = 0.5 + 2 * r.unit();
+        const double apart = scene % 3 == 0 ? 0 : 0.03 + 0.2 * r.unit();
+        std::vector<TestMesh> meshes(2);
+        for (std::size_t i = 0; i < meshes.size(); ++i) {
+            body b = make_slivers(count, length, thick, spacing, i == 0 ? angle : angle + across);
+            move_body(&b, i == 0 ? 0 : 0.1, 0, i == 0 ? 0 : apart);
+            meshes[i].positions.assign(b.positions, b.positions + 3 * b.vertex_count);
+            meshes[i].tets.assign(b.tets, b.tets + 4 * b.tet_count);
+            meshes[i].on.assign(b.tet_count, 1);
+            meshes[i].round();
+            free_body(&b);
+        }
+        const std::vector<Expected> expected = brute_force(meshes, {});
+        crossing += expected.size();
+        vox_grid_desc desc = vox_default_grid_desc();
+        desc.flags = VOX_GRID_EDGES | VOX_GRID_CONSTRAINTS;
+        vox_grid* grid = grid_of(&desc);
+        for (TestMesh& mesh : meshes) mesh.id = insert(grid, mesh);
+        ck_ok(vox_grid_step(grid));
+        check_edges(grid, meshes, expected, true);
+        if (apart > 0) ck_assert_uint_lt(counters_of(grid).edge_candidates, 1000); // boxes: 100,000 and more
+        vox_grid_destroy(grid);
+    }
+    ck_assert_uint_gt(crossing, 1000);
+}
+END_TEST
+
 } // namespace
 
 SUITE(edge_definition) {
     TCase* tests = add_case(suite, "definition");
-    tcase_add_each(tests, random_scenes_equal_the_definition, large_bodies_equal_the_definition);
+    tcase_add_each(tests, random_scenes_equal_the_definition, large_bodies_equal_the_definition,
+                   slivers_equal_the_definition);
 }
