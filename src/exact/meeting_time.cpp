@@ -126,29 +126,78 @@ double exclude_before(const SeenMotion& motion, double begin, double guessed) no
     return begin;
 }
 
-// The beginning of the first interval that is neither excluded nor divided.
+// The latest time, at most 1, up to which an axis is seen to separate the two from `begin` on; `begin` if it does not.
+double separated_until(const SeenMotion& motion, const CornerPositions& first, double begin,
+                       const Vec3d& axis) noexcept {
+    const double error = 1.25 * dot_error * largest_coordinate(axis);
+    double part = 1; // of what is left of the motion
+    for (int i = 0; i < 3; ++i) {
+        const double from = dot(first.at[i], axis), to = dot(motion.to[i], axis);
+        if (!(from > error)) return begin;
+        if (to < error) part = std::min(part, (from - error) / (from - to));
+    }
+    const double end = part < 1 ? begin + part * (1 - begin) : 1;
+    return end > begin && is_separated(first, corners_at(motion, end), axis) ? end : begin;
+}
+
+// The two are apart until `begin`. `is_close`: they seem to meet right after that.
+struct Advance {
+    double begin;
+    bool is_close;
+};
+
+// Conservative advancement (B. Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems, 1996, Sect.
+// 2.3): each time to where the way to the closest point does not separate any more. Ends after `latest`.
+Advance advance(const SeenMotion& motion, double latest) noexcept {
+    constexpr int most_steps = 8;
+    double begin = 0;
+    for (int i = 0; i < most_steps; ++i) {
+        const CornerPositions first = corners_at(motion, begin);
+        const Vec3d* c = first.at;
+        const SeenPoint seen = closest_seen_from({0, 0, 0}, c[0], c[1], c[2]);
+        const double* weight = seen.at.weight;
+        Vec3d axis = seen.way;
+        if (weight[0] > 0 && weight[1] > 0 && weight[2] > 0) { // which rounding errors turn less
+            const Vec3d normal = normal_of(first);
+            axis = dot(normal, c[0]) > 0 ? normal : -1.0 * normal;
+        }
+        const double end = separated_until(motion, first, begin, axis);
+        if (end > latest || end == 1) return {2, false};
+        const bool is_close = end < begin + 0x1p-44;
+        begin = end;
+        if (is_close) return {begin, true};
+    }
+    return {begin, false};
+}
+
+// The beginning of the first interval that is neither excluded nor divided, or what is known to be excluded.
 double first_left(const SeenMotion& motion, double latest) noexcept {
     constexpr int most_jumps = 24; // divisions after which none pays
     Interval stack[2 * most_divisions + 2];
-    int size = 1, tested = 0;
-    double excluded = 0; // what is before it
+    int size = 0, tested = 0;
+    const Advance advanced = advance(motion, latest);
+    double excluded = advanced.begin; // what is before it
+    if (excluded > latest) return no_meeting;
+    const auto descend = [&](Interval interval, int divisions) {
+        while (interval.divisions < divisions) {
+            if (interval.middle() > excluded) stack[size++] = interval.later();
+            interval = interval.middle() > excluded ? interval.earlier() : interval.later();
+        }
+        stack[size++] = interval;
+    };
+    descend({}, advanced.is_close ? most_divisions : 0);
     while (size > 0) {
-        Interval interval = stack[--size];
+        const Interval interval = stack[--size];
         const double begin = std::max(interval.begin, excluded);
         if (begin > latest) return no_meeting;
-        if (interval.end() <= excluded || stay_apart(motion, interval.begin, interval.end())) continue;
+        if (interval.end() <= excluded || stay_apart(motion, begin, interval.end())) continue;
         if (interval.divisions == most_divisions || ++tested == most_intervals) return begin;
         if (interval.divisions < most_jumps) {
             const double guessed = guess(motion, interval);
             if (guessed != no_meeting) excluded = exclude_before(motion, begin, guessed);
-            // Where there is a meeting, no interval around it can be excluded.
-            while (excluded > begin && interval.divisions < 40) {
-                if (interval.middle() > excluded) stack[size++] = interval.later();
-                interval = interval.middle() > excluded ? interval.earlier() : interval.later();
-            }
         }
-        stack[size++] = interval.later();
-        stack[size++] = interval.earlier();
+        // Where there is a meeting, no interval around it can be excluded.
+        descend(interval, excluded > begin ? std::max(40, interval.divisions + 1) : interval.divisions + 1);
     }
     return no_meeting;
 }

@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/room.hpp"
+#include "base/vectors.hpp"
 #include "fast/broad_phase.hpp"
 #include "fast/stream.hpp"
 #include "mesh/check.hpp"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace vox {
 
@@ -40,6 +42,10 @@ void check_previous(const Body& body, const Positions& previous) {
                     format(", vertex %u: a coordinate of the previous position is %s", vertex,
                            result == VOX_ERROR_LIMIT ? "too large" : "not finite"),
                     vertex);
+}
+
+Vec3d middle_of(const Box& box) noexcept {
+    return 0.5 * (Vec3d{box.lo[0], box.lo[1], box.lo[2]} + Vec3d{box.hi[0], box.hi[1], box.hi[2]});
 }
 
 } // namespace
@@ -168,7 +174,17 @@ std::size_t VertexFaceSearch::list(const fast::Pair& pair, Lists& lists) const {
     for (const Box& group : lists.runs.groups) add(around_vertices, group);
     const Box reached = grown(around_vertices, reach);
     erase_if(lists.tiles, [&](std::uint32_t t) { return !overlap(tile_boxes[t], reached); });
+    if (moves(pair)) sort_by_motion(pair, lists.tiles);
     return lists.tiles.size();
+}
+
+// Tiles in front, as b moves relative to a, come first: what a vertex meets there leaves out most of the others.
+void VertexFaceSearch::sort_by_motion(const fast::Pair& pair, Array<std::uint32_t>& tiles) const {
+    const auto way_of = [](const MovingBox& box) { return middle_of(box.to) - middle_of(box.from); };
+    const Vec3d way = way_of(bodies_[pair.b].moving_box) - way_of(bodies_[pair.a].moving_box);
+    const Box* const boxes = bodies_.tile_boxes(pair.b);
+    const auto place = [&](std::uint32_t tile) { return std::pair(-dot(way, middle_of(boxes[tile])), tile); };
+    std::sort(tiles.begin(), tiles.end(), [&](std::uint32_t s, std::uint32_t t) { return place(s) < place(t); });
 }
 
 // From the blocks and the vertices that are left of them.
@@ -205,7 +221,7 @@ void VertexFaceSearch::make_runs(const SearchedBody& body, bool moves, Lists& li
 // The tiles [first, last) of the list against all of its vertices.
 void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Lists& lists, std::size_t first,
                                     std::size_t last, std::uint32_t worker) {
-    constexpr std::uint32_t at_once = 64;
+    constexpr std::uint32_t at_once = NearFaces::at_once;
     const SearchedBody &a = bodies_[pair.a], &b = bodies_[pair.b];
     const float reach = a.grow + b.grow;
     const bool is_moving = moves(pair);
