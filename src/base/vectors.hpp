@@ -37,10 +37,6 @@ inline double largest_coordinate(const Vec3d& v) noexcept {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 inline Vec3d times_power(const Vec3d& v, int powers) noexcept { // of two
-    if (powers > -1000 && powers < 1000) {
-        const double by = std::ldexp(1.0, powers);
-        return {by * v.x, by * v.y, by * v.z};
-    }
     return {std::ldexp(v.x, powers), std::ldexp(v.y, powers), std::ldexp(v.z, powers)};
 }
 // The determinant of the matrix with these rows: six times the signed volume of the tetrahedron that they

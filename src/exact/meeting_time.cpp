@@ -140,10 +140,11 @@ double separated_until(const SeenMotion& motion, const CornerPositions& first, d
     return end > begin && is_separated(first, corners_at(motion, end), axis) ? end : begin;
 }
 
-// The two are apart until `begin`. `is_close`: they seem to meet right after that.
+// The two are apart until `begin`; and then?
+enum class Next { unknown, close, met };
 struct Advance {
     double begin;
-    bool is_close;
+    Next next;
 };
 
 // Conservative advancement (B. Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems, 1996, Sect.
@@ -157,17 +158,20 @@ Advance advance(const SeenMotion& motion, double latest) noexcept {
         const SeenPoint seen = closest_seen_from({0, 0, 0}, c[0], c[1], c[2]);
         const double* weight = seen.at.weight;
         Vec3d axis = seen.way;
-        if (weight[0] > 0 && weight[1] > 0 && weight[2] > 0) { // which rounding errors turn less
+        const bool is_over = weight[0] > 0 && weight[1] > 0 && weight[2] > 0;
+        if (is_over) { // rounding errors turn the normal less
             const Vec3d normal = normal_of(first);
             axis = dot(normal, c[0]) > 0 ? normal : -1.0 * normal;
         }
         const double end = separated_until(motion, first, begin, axis);
-        if (end > latest || end == 1) return {2, false};
+        if (end > latest || end == 1) return {2, Next::unknown};
         const bool is_close = end < begin + 0x1p-44;
         begin = end;
-        if (is_close) return {begin, true};
+        if (is_close)
+            return {begin, is_over && dot(axis, c[0]) < 4 * dot_error * largest_coordinate(axis) ? Next::met
+                                                                                                 : Next::close};
     }
-    return {begin, false};
+    return {begin, Next::unknown};
 }
 
 // The beginning of the first interval that is neither excluded nor divided, or what is known to be excluded.
@@ -178,6 +182,7 @@ double first_left(const SeenMotion& motion, double latest) noexcept {
     const Advance advanced = advance(motion, latest);
     double excluded = advanced.begin; // what is before it
     if (excluded > latest) return no_meeting;
+    if (advanced.next == Next::met) return excluded;
     const auto descend = [&](Interval interval, int divisions) {
         while (interval.divisions < divisions) {
             if (interval.middle() > excluded) stack[size++] = interval.later();
@@ -185,7 +190,7 @@ double first_left(const SeenMotion& motion, double latest) noexcept {
         }
         stack[size++] = interval;
     };
-    descend({}, advanced.is_close ? most_divisions : 0);
+    descend({}, advanced.next == Next::close ? most_divisions : 0);
     while (size > 0) {
         const Interval interval = stack[--size];
         const double begin = std::max(interval.begin, excluded);
@@ -210,10 +215,11 @@ double meeting_time(const SeenMotion& given, double latest) noexcept {
         largest = std::max({largest, largest_coordinate(given.from[i]), largest_coordinate(given.to[i])});
     if (!(largest > 0)) return 0;
     SeenMotion motion;
-    const int power = -1 - std::ilogb(largest);
+    const int power = -1 - std::ilogb(largest), most = std::clamp(power, -1000, 1000); // others overflow
+    const double scale = std::ldexp(1.0, most), rest = std::ldexp(1.0, power - most);
     for (int i = 0; i < 3; ++i) {
-        motion.from[i] = times_power(given.from[i], power);
-        motion.to[i] = times_power(given.to[i], power);
+        motion.from[i] = rest * (scale * given.from[i]);
+        motion.to[i] = rest * (scale * given.to[i]);
     }
     return first_left(motion, latest);
 }

@@ -199,6 +199,9 @@ private:
         for (const Least& least : worker.least)
             worker.found.push_back({element_of(worker, least), least.number});
     }
+    double latest(std::uint32_t place, std::uint32_t w) noexcept final {
+        return workers_[w].of_vertex[place].most;
+    }
     // The least of each vertex and mesh, as pieces of a pair each found one.
     void put_in_order() {
         order_.clear();

@@ -68,6 +68,8 @@ void VertexFaceSearch::find_meeting(const StepScene& scene, std::span<const Posi
                                     KeptFeatures& kept) {
     bodies_.begin(scene);
     move_bodies(scene, previous);
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+        if (!is_empty(bodies_[b].box)) bodies_[b].grow = growth(bodies_[b].box, 0);
     find_pairs(scene, {scene.bodies, {}});
     erase_if(pairs_, [&](const fast::Pair& pair) {
         const SearchedBody &a = bodies_[pair.a], &b = bodies_[pair.b];
@@ -238,7 +240,9 @@ void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Lists& lists, 
         if (is_moving)
             for (std::uint32_t v = 0; v < tile.vertex_count; ++v)
                 add(moving, b.moving_vertex(b.features->vertices[tile.first_vertex + v]));
-        const auto may_meet = [&](const MovingBox& other) { return !stay_apart(other, moving, reach); };
+        const auto may_meet = [&](const MovingBox& other, double until = 1) {
+            return !stay_apart(other, moving, reach, until);
+        };
         bool is_loaded = false;
         std::uint32_t count = 0;
         const auto compare = [&] {
@@ -266,7 +270,7 @@ void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Lists& lists, 
                 places[count] = k;
                 boxes[count] = a.vertex_box(lists.vertices[k]);
                 count += overlap(boxes[count], box) &&
-                         (!is_moving || may_meet(a.moving_vertex(lists.vertices[k])));
+                         (!is_moving || may_meet(a.moving_vertex(lists.vertices[k]), latest(k, worker)));
                 if (count == at_once) compare();
             }
         });

@@ -55,6 +55,8 @@ private:
     virtual void begin(const VertexFacePair& pair, std::uint32_t worker) = 0;
     virtual void visit(const SurfaceTile& tile, std::span<NearFaces> near, std::uint32_t worker) = 0;
     virtual void end(std::uint32_t worker) = 0;
+    // In a search for meetings, after when one of a vertex, by its place, is of no interest any more.
+    virtual double latest(std::uint32_t place, std::uint32_t worker) noexcept = 0;
 
     struct Lists {
         explicit Lists(std::pmr::memory_resource* memory)
