@@ -149,10 +149,10 @@ struct Advance {
 
 // Conservative advancement (B. Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems, 1996, Sect.
 // 2.3): each time to where the way to the closest point does not separate any more. Ends after `latest`.
-Advance advance(const SeenMotion& motion, double latest) noexcept {
+Advance advance(const SeenMotion& motion, double latest, std::uint64_t& tests) noexcept {
     constexpr int most_steps = 8;
     double begin = 0;
-    for (int i = 0; i < most_steps; ++i) {
+    for (int i = 0; i < most_steps; ++i, ++tests) {
         const CornerPositions first = corners_at(motion, begin);
         const Vec3d* c = first.at;
         const SeenPoint seen = closest_seen_from({0, 0, 0}, c[0], c[1], c[2]);
@@ -175,11 +175,11 @@ Advance advance(const SeenMotion& motion, double latest) noexcept {
 }
 
 // The beginning of the first interval that is neither excluded nor divided, or what is known to be excluded.
-double first_left(const SeenMotion& motion, double latest) noexcept {
+double first_left(const SeenMotion& motion, double latest, std::uint64_t& tests) noexcept {
     constexpr int most_jumps = 24; // divisions after which none pays
     Interval stack[2 * most_divisions + 2];
-    int size = 0, tested = 0;
-    const Advance advanced = advance(motion, latest);
+    int size = 0, left = 0;
+    const Advance advanced = advance(motion, latest, tests);
     double excluded = advanced.begin; // what is before it
     if (excluded > latest) return no_meeting;
     if (advanced.next == Next::met) return excluded;
@@ -195,8 +195,10 @@ double first_left(const SeenMotion& motion, double latest) noexcept {
         const Interval interval = stack[--size];
         const double begin = std::max(interval.begin, excluded);
         if (begin > latest) return no_meeting;
-        if (interval.end() <= excluded || stay_apart(motion, begin, interval.end())) continue;
-        if (interval.divisions == most_divisions || ++tested == most_intervals) return begin;
+        if (interval.end() <= excluded) continue;
+        ++tests;
+        if (stay_apart(motion, begin, interval.end())) continue;
+        if (interval.divisions == most_divisions || ++left == most_intervals) return begin;
         if (interval.divisions < most_jumps) {
             const double guessed = guess(motion, interval);
             if (guessed != no_meeting) excluded = exclude_before(motion, begin, guessed);
@@ -209,7 +211,7 @@ double first_left(const SeenMotion& motion, double latest) noexcept {
 
 } // namespace
 
-double meeting_time(const SeenMotion& given, double latest) noexcept {
+double meeting_time(const SeenMotion& given, double latest, std::uint64_t& tests) noexcept {
     double largest = 0;
     for (int i = 0; i < 3; ++i)
         largest = std::max({largest, largest_coordinate(given.from[i]), largest_coordinate(given.to[i])});
@@ -221,7 +223,7 @@ double meeting_time(const SeenMotion& given, double latest) noexcept {
         motion.from[i] = rest * (scale * given.from[i]);
         motion.to[i] = rest * (scale * given.to[i]);
     }
-    return first_left(motion, latest);
+    return first_left(motion, latest, tests);
 }
 
 } // namespace vox

@@ -142,6 +142,7 @@ void Impacts::look(Worker& worker, const NearFaces& near) const {
     const std::uint32_t vertex = worker.pair.vertices[near.place];
     const Vec3d from = before(worker.pair.a, vertex), to = position(worker.pair.a, vertex);
     worker.candidates += static_cast<std::uint64_t>(std::popcount(near.faces));
+    std::uint64_t tests = 0;
     for (std::uint32_t left = near.faces; left; left &= left - 1) {
         const auto face = static_cast<std::uint32_t>(std::countr_zero(left));
         const std::array<std::uint8_t, 3>& corners =
@@ -151,7 +152,7 @@ void Impacts::look(Worker& worker, const NearFaces& near) const {
             motion.from[i] = worker.read.from[corners[i]] - from;
             motion.to[i] = worker.read.to[corners[i]] - to;
         }
-        offer(worker, near.place, face, meeting_time(motion, worker.of_vertex[near.place].most));
+        offer(worker, near.place, face, meeting_time(motion, worker.of_vertex[near.place].most, tests));
     }
 }
 
