@@ -126,7 +126,8 @@ double exclude_before(const SeenMotion& motion, double begin, double guessed) no
     return begin;
 }
 
-// The latest time, at most 1, up to which an axis is seen to separate the two from `begin` on; `begin` if it does not.
+// The latest time, at most 1, up to which an axis is seen to separate the two from `begin` on; `begin` if it
+// does not.
 double separated_until(const SeenMotion& motion, const CornerPositions& first, double begin,
                        const Vec3d& axis) noexcept {
     const double error = 1.25 * dot_error * largest_coordinate(axis);
@@ -168,8 +169,9 @@ Advance advance(const SeenMotion& motion, double latest, std::uint64_t& tests) n
         const bool is_close = end < begin + 0x1p-44;
         begin = end;
         if (is_close)
-            return {begin, is_over && dot(axis, c[0]) < 4 * dot_error * largest_coordinate(axis) ? Next::met
-                                                                                                 : Next::close};
+            return {begin, is_over && dot(axis, c[0]) < 4 * dot_error * largest_coordinate(axis)
+                               ? Next::met
+                               : Next::close};
     }
     return {begin, Next::unknown};
 }

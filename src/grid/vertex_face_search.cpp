@@ -180,13 +180,15 @@ std::size_t VertexFaceSearch::list(const fast::Pair& pair, Lists& lists) const {
     return lists.tiles.size();
 }
 
-// Tiles in front, as b moves relative to a, come first: what a vertex meets there leaves out most of the others.
+// Tiles in front, as b moves relative to a, come first: what a vertex meets there leaves out most of the
+// others.
 void VertexFaceSearch::sort_by_motion(const fast::Pair& pair, Array<std::uint32_t>& tiles) const {
     const auto way_of = [](const MovingBox& box) { return middle_of(box.to) - middle_of(box.from); };
     const Vec3d way = way_of(bodies_[pair.b].moving_box) - way_of(bodies_[pair.a].moving_box);
     const Box* const boxes = bodies_.tile_boxes(pair.b);
     const auto place = [&](std::uint32_t tile) { return std::pair(-dot(way, middle_of(boxes[tile])), tile); };
-    std::sort(tiles.begin(), tiles.end(), [&](std::uint32_t s, std::uint32_t t) { return place(s) < place(t); });
+    std::sort(tiles.begin(), tiles.end(),
+              [&](std::uint32_t s, std::uint32_t t) { return place(s) < place(t); });
 }
 
 // From the blocks and the vertices that are left of them.
