@@ -91,41 +91,6 @@ struct Interval {
     Interval later() const noexcept { return {middle(), 0.5 * length, divisions + 1}; }
 };
 
-double volume_at(const CornerPositions& corners) noexcept { return dot(normal_of(corners), corners.at[0]); }
-
-// About when the point goes through the plane within an interval, by the secant method; no_meeting if it does
-// not, or not close to the triangle.
-double guess(const SeenMotion& motion, const Interval& interval) noexcept {
-    double low = interval.begin, high = interval.end(), time = low;
-    double at_low = volume_at(corners_at(motion, low)), at_high = volume_at(corners_at(motion, high));
-    if (!(at_low * at_high < 0)) return no_meeting;
-    CornerPositions corners;
-    for (int i = 0; i < 8; ++i) {
-        const double last = time;
-        time = low + at_low / (at_low - at_high) * (high - low);
-        corners = corners_at(motion, time);
-        const double volume = volume_at(corners);
-        if (std::abs(time - last) < 0x1p-46 || volume == 0) break;
-        (volume * at_low > 0 ? low : high) = time;
-        (volume * at_low > 0 ? at_low : at_high) = volume;
-    }
-    const Vec3d way = closest_seen_from({0, 0, 0}, corners.at[0], corners.at[1], corners.at[2]).way;
-    return largest_coordinate(way) < 0x1p-40 ? time : no_meeting;
-}
-
-// The end of what can be excluded at once, from `begin` on, before a guessed time.
-double exclude_before(const SeenMotion& motion, double begin, double guessed) noexcept {
-    const CornerPositions met = corners_at(motion, guessed);
-    const Vec3d normal = normal_of(met);
-    for (const double before : {0x1p-42, 0x1p-36, 0x1p-24}) {
-        const double end = std::floor((guessed - before) * 0x1p42) * 0x1p-42;
-        if (!(end > begin)) return begin;
-        const CornerPositions first = corners_at(motion, begin), last = corners_at(motion, end);
-        if (is_separated(first, last, dot(normal, last.at[0]) > 0 ? normal : -1.0 * normal)) return end;
-    }
-    return begin;
-}
-
 // The latest time, at most 1, up to which an axis is seen to separate the two from `begin` on; `begin` if it
 // does not.
 double separated_until(const SeenMotion& motion, const CornerPositions& first, double begin,
@@ -141,7 +106,8 @@ double separated_until(const SeenMotion& motion, const CornerPositions& first, d
     return end > begin && is_separated(first, corners_at(motion, end), axis) ? end : begin;
 }
 
-// The two are apart until `begin`; and then?
+// The two are apart until `begin`. Right after that they may be close, or the point is at the inside of the
+// triangle, as far as rounding errors show.
 enum class Next { unknown, close, met };
 struct Advance {
     double begin;
@@ -149,7 +115,8 @@ struct Advance {
 };
 
 // Conservative advancement (B. Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems, 1996, Sect.
-// 2.3): each time to where the way to the closest point does not separate any more. Ends after `latest`.
+// 2.3): each time to where the way to the closest point does not separate any more. The steps do not depend
+// on `latest`, after which they end.
 Advance advance(const SeenMotion& motion, double latest, std::uint64_t& tests) noexcept {
     constexpr int most_steps = 8;
     double begin = 0;
@@ -178,7 +145,6 @@ Advance advance(const SeenMotion& motion, double latest, std::uint64_t& tests) n
 
 // The beginning of the first interval that is neither excluded nor divided, or what is known to be excluded.
 double first_left(const SeenMotion& motion, double latest, std::uint64_t& tests) noexcept {
-    constexpr int most_jumps = 24; // divisions after which none pays
     Interval stack[2 * most_divisions + 2];
     int size = 0, left = 0;
     const Advance advanced = advance(motion, latest, tests);
@@ -201,12 +167,7 @@ double first_left(const SeenMotion& motion, double latest, std::uint64_t& tests)
         ++tests;
         if (stay_apart(motion, begin, interval.end())) continue;
         if (interval.divisions == most_divisions || ++left == most_intervals) return begin;
-        if (interval.divisions < most_jumps) {
-            const double guessed = guess(motion, interval);
-            if (guessed != no_meeting) excluded = exclude_before(motion, begin, guessed);
-        }
-        // Where there is a meeting, no interval around it can be excluded.
-        descend(interval, excluded > begin ? std::max(40, interval.divisions + 1) : interval.divisions + 1);
+        descend(interval, interval.divisions + 1);
     }
     return no_meeting;
 }
