@@ -91,82 +91,102 @@ struct Interval {
     Interval later() const noexcept { return {middle(), 0.5 * length, divisions + 1}; }
 };
 
-double volume_at(const CornerPositions& corners) noexcept { return dot(normal_of(corners), corners.at[0]); }
-
-// About when the point goes through the plane within an interval, by the secant method; no_meeting if it does
-// not, or not close to the triangle.
-double guess(const SeenMotion& motion, const Interval& interval) noexcept {
-    double low = interval.begin, high = interval.end(), time = low;
-    double at_low = volume_at(corners_at(motion, low)), at_high = volume_at(corners_at(motion, high));
-    if (!(at_low * at_high < 0)) return no_meeting;
-    CornerPositions corners;
-    for (int i = 0; i < 8; ++i) {
-        const double last = time;
-        time = low + at_low / (at_low - at_high) * (high - low);
-        corners = corners_at(motion, time);
-        const double volume = volume_at(corners);
-        if (std::abs(time - last) < 0x1p-46 || volume == 0) break;
-        (volume * at_low > 0 ? low : high) = time;
-        (volume * at_low > 0 ? at_low : at_high) = volume;
+// The latest time, at most 1, up to which an axis is seen to separate the two from `begin` on; `begin` if it
+// does not.
+double separated_until(const SeenMotion& motion, const CornerPositions& first, double begin,
+                       const Vec3d& axis) noexcept {
+    const double error = 1.25 * dot_error * largest_coordinate(axis);
+    double part = 1; // of what is left of the motion
+    for (int i = 0; i < 3; ++i) {
+        const double from = dot(first.at[i], axis), to = dot(motion.to[i], axis);
+        if (!(from > error)) return begin;
+        if (to < error) part = std::min(part, (from - error) / (from - to));
     }
-    const Vec3d way = closest_seen_from({0, 0, 0}, corners.at[0], corners.at[1], corners.at[2]).way;
-    return largest_coordinate(way) < 0x1p-40 ? time : no_meeting;
+    const double end = part < 1 ? begin + part * (1 - begin) : 1;
+    return end > begin && is_separated(first, corners_at(motion, end), axis) ? end : begin;
 }
 
-// The end of what can be excluded at once, from `begin` on, before a guessed time.
-double exclude_before(const SeenMotion& motion, double begin, double guessed) noexcept {
-    const CornerPositions met = corners_at(motion, guessed);
-    const Vec3d normal = normal_of(met);
-    for (const double before : {0x1p-42, 0x1p-36, 0x1p-24}) {
-        const double end = std::floor((guessed - before) * 0x1p42) * 0x1p-42;
-        if (!(end > begin)) return begin;
-        const CornerPositions first = corners_at(motion, begin), last = corners_at(motion, end);
-        if (is_separated(first, last, dot(normal, last.at[0]) > 0 ? normal : -1.0 * normal)) return end;
+// The two are apart until `begin`. Right after that they may be close, or the point is at the inside of the
+// triangle, as far as rounding errors show.
+enum class Next { unknown, close, met };
+struct Advance {
+    double begin;
+    Next next;
+};
+
+// Conservative advancement (B. Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems, 1996, Sect.
+// 2.3): each time to where the way to the closest point does not separate any more. The steps do not depend
+// on `latest`, after which they end.
+Advance advance(const SeenMotion& motion, double latest, std::uint64_t& tests) noexcept {
+    constexpr int most_steps = 8;
+    double begin = 0;
+    for (int i = 0; i < most_steps; ++i, ++tests) {
+        const CornerPositions first = corners_at(motion, begin);
+        const Vec3d* c = first.at;
+        const SeenPoint seen = closest_seen_from({0, 0, 0}, c[0], c[1], c[2]);
+        const double* weight = seen.at.weight;
+        Vec3d axis = seen.way;
+        const bool is_over = weight[0] > 0 && weight[1] > 0 && weight[2] > 0;
+        if (is_over) { // rounding errors turn the normal less
+            const Vec3d normal = normal_of(first);
+            axis = dot(normal, c[0]) > 0 ? normal : -1.0 * normal;
+        }
+        const double end = separated_until(motion, first, begin, axis);
+        if (end > latest || end == 1) return {2, Next::unknown};
+        const bool is_close = end < begin + 0x1p-44;
+        begin = end;
+        if (is_close)
+            return {begin, is_over && dot(axis, c[0]) < 4 * dot_error * largest_coordinate(axis)
+                               ? Next::met
+                               : Next::close};
     }
-    return begin;
+    return {begin, Next::unknown};
 }
 
-// The beginning of the first interval that is neither excluded nor divided.
-double first_left(const SeenMotion& motion, double latest) noexcept {
-    constexpr int most_jumps = 24; // divisions after which none pays
+// The beginning of the first interval that is neither excluded nor divided, or what is known to be excluded.
+double first_left(const SeenMotion& motion, double latest, std::uint64_t& tests) noexcept {
     Interval stack[2 * most_divisions + 2];
-    int size = 1, tested = 0;
-    double excluded = 0; // what is before it
+    int size = 0, left = 0;
+    const Advance advanced = advance(motion, latest, tests);
+    double excluded = advanced.begin; // what is before it
+    if (excluded > latest) return no_meeting;
+    if (advanced.next == Next::met) return excluded;
+    const auto descend = [&](Interval interval, int divisions) {
+        while (interval.divisions < divisions) {
+            if (interval.middle() > excluded) stack[size++] = interval.later();
+            interval = interval.middle() > excluded ? interval.earlier() : interval.later();
+        }
+        stack[size++] = interval;
+    };
+    descend({}, advanced.next == Next::close ? most_divisions : 0);
     while (size > 0) {
-        Interval interval = stack[--size];
+        const Interval interval = stack[--size];
         const double begin = std::max(interval.begin, excluded);
         if (begin > latest) return no_meeting;
-        if (interval.end() <= excluded || stay_apart(motion, interval.begin, interval.end())) continue;
-        if (interval.divisions == most_divisions || ++tested == most_intervals) return begin;
-        if (interval.divisions < most_jumps) {
-            const double guessed = guess(motion, interval);
-            if (guessed != no_meeting) excluded = exclude_before(motion, begin, guessed);
-            // Where there is a meeting, no interval around it can be excluded.
-            while (excluded > begin && interval.divisions < 40) {
-                if (interval.middle() > excluded) stack[size++] = interval.later();
-                interval = interval.middle() > excluded ? interval.earlier() : interval.later();
-            }
-        }
-        stack[size++] = interval.later();
-        stack[size++] = interval.earlier();
+        if (interval.end() <= excluded) continue;
+        ++tests;
+        if (stay_apart(motion, begin, interval.end())) continue;
+        if (interval.divisions == most_divisions || ++left == most_intervals) return begin;
+        descend(interval, interval.divisions + 1);
     }
     return no_meeting;
 }
 
 } // namespace
 
-double meeting_time(const SeenMotion& given, double latest) noexcept {
+double meeting_time(const SeenMotion& given, double latest, std::uint64_t& tests) noexcept {
     double largest = 0;
     for (int i = 0; i < 3; ++i)
         largest = std::max({largest, largest_coordinate(given.from[i]), largest_coordinate(given.to[i])});
     if (!(largest > 0)) return 0;
     SeenMotion motion;
-    const int power = -1 - std::ilogb(largest);
+    const int power = -1 - std::ilogb(largest), most = std::clamp(power, -1000, 1000); // others overflow
+    const double scale = std::ldexp(1.0, most), rest = std::ldexp(1.0, power - most);
     for (int i = 0; i < 3; ++i) {
-        motion.from[i] = times_power(given.from[i], power);
-        motion.to[i] = times_power(given.to[i], power);
+        motion.from[i] = rest * (scale * given.from[i]);
+        motion.to[i] = rest * (scale * given.to[i]);
     }
-    return first_left(motion, latest);
+    return first_left(motion, latest, tests);
 }
 
 } // namespace vox

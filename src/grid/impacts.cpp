@@ -98,44 +98,52 @@ void Impacts::load(Worker& worker) const {
     worker.read.has_lanes = false;
 }
 
-// Those of many faces that an axis does not prove to stay apart from a vertex.
-std::uint32_t Impacts::leave_close(Worker& worker, std::uint32_t faces, const Vec3d& from,
-                                   const Vec3d& to) const {
-    constexpr int many = 4;
-    if (std::popcount(faces) < many) return faces;
+void Impacts::make_lanes(Worker& worker) const {
     MovingTile& read = worker.read;
-    if (!read.has_lanes) {
-        const SurfaceTile& tile = *worker.tile;
-        const SurfaceMotion motion{{read.from.data(), tile.vertex_count},
-                                   {read.to.data(), tile.vertex_count}};
-        std::array<std::uint32_t, SurfaceTile::most_vertices> all;
-        std::iota(all.begin(), all.end(), 0u);
-        read.frame = frame_along(motion, {all.data(), tile.vertex_count});
-        for (std::uint32_t f = 0; f < tile.face_count; ++f) {
-            const auto& [u, v, w] = worker.pair.surface->faces[tile.first_face + f];
-            const std::uint32_t corners[3] = {u, v, w};
-            set_lane(read.frame, motion, corners, f, read.lanes);
-        }
-        read.has_lanes = true;
+    const SurfaceTile& tile = *worker.tile;
+    const SurfaceMotion motion{{read.from.data(), tile.vertex_count}, {read.to.data(), tile.vertex_count}};
+    std::array<std::uint32_t, SurfaceTile::most_vertices> all;
+    std::iota(all.begin(), all.end(), 0u);
+    read.frame = frame_along(motion, {all.data(), tile.vertex_count});
+    for (std::uint32_t f = 0; f < tile.face_count; ++f) {
+        const auto& [u, v, w] = worker.pair.surface->faces[tile.first_face + f];
+        const std::uint32_t corners[3] = {u, v, w};
+        set_lane(read.frame, motion, corners, f, read.lanes);
     }
-    constexpr std::uint32_t only = 0;
-    const CullPartner vertex = partner_in(read.frame, {{&from, 1}, {&to, 1}}, {&only, 1});
-    std::array<std::uint32_t, SurfaceTile::most_faces> lanes, partner{};
+    read.has_lanes = true;
+}
+
+// Leaves faces that an axis does not prove to stay apart from a vertex. Those of all vertices fill the lanes.
+void Impacts::sieve(Worker& worker, std::span<NearFaces> near) const {
+    constexpr int few = 4; // faces a vertex, whose times are computed sooner
+    std::array<std::uint32_t, NearFaces::at_once * SurfaceTile::most_faces> lanes, partner;
+    std::array<CullPartner, NearFaces::at_once> partners;
     std::size_t count = 0;
-    for (std::uint32_t left = faces; left; left &= left - 1)
-        lanes[count++] = static_cast<std::uint32_t>(std::countr_zero(left));
-    count = cull_some({read.lanes, &vertex, 3, 1, 0, true, lanes.data(), partner.data(), count});
-    std::uint32_t close = 0;
-    for (std::size_t i = 0; i < count; ++i) close |= 1u << lanes[i];
-    return close;
+    for (std::uint32_t i = 0; i < near.size(); ++i) {
+        if (std::popcount(near[i].faces) < few) continue;
+        if (!worker.read.has_lanes) make_lanes(worker);
+        const std::uint32_t vertex = worker.pair.vertices[near[i].place];
+        const Vec3d from = before(worker.pair.a, vertex), to = position(worker.pair.a, vertex);
+        constexpr std::uint32_t only = 0;
+        partners[i] = partner_in(worker.read.frame, {{&from, 1}, {&to, 1}}, {&only, 1});
+        std::uint32_t left = cull_across(worker.read.lanes, partners[i], near[i].faces);
+        for (; left; left &= left - 1, ++count) {
+            lanes[count] = static_cast<std::uint32_t>(std::countr_zero(left));
+            partner[count] = i;
+        }
+        near[i].faces = 0;
+    }
+    count = cull_some({worker.read.lanes, partners.data(), 3, 1, 0, lanes.data(), partner.data(), count});
+    for (std::size_t i = 0; i < count; ++i) near[partner[i]].faces |= 1u << lanes[i];
 }
 
 void Impacts::look(Worker& worker, const NearFaces& near) const {
+    if (near.faces == 0) return;
     const std::uint32_t vertex = worker.pair.vertices[near.place];
     const Vec3d from = before(worker.pair.a, vertex), to = position(worker.pair.a, vertex);
-    const std::uint32_t close = leave_close(worker, near.faces, from, to);
-    worker.candidates += static_cast<std::uint64_t>(std::popcount(close));
-    for (std::uint32_t left = close; left; left &= left - 1) {
+    worker.candidates += static_cast<std::uint64_t>(std::popcount(near.faces));
+    std::uint64_t tests = 0;
+    for (std::uint32_t left = near.faces; left; left &= left - 1) {
         const auto face = static_cast<std::uint32_t>(std::countr_zero(left));
         const std::array<std::uint8_t, 3>& corners =
             worker.pair.surface->faces[worker.tile->first_face + face];
@@ -144,7 +152,7 @@ void Impacts::look(Worker& worker, const NearFaces& near) const {
             motion.from[i] = worker.read.from[corners[i]] - from;
             motion.to[i] = worker.read.to[corners[i]] - to;
         }
-        offer(worker, near.place, face, meeting_time(motion, worker.of_vertex[near.place].most));
+        offer(worker, near.place, face, meeting_time(motion, worker.of_vertex[near.place].most, tests));
     }
 }
 

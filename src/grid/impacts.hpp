@@ -69,8 +69,9 @@ private:
 
     void leave_out(std::uint32_t a, std::uint32_t b, Array<std::uint32_t>& vertices) const override;
     void load(Worker& worker) const override;
+    void sieve(Worker& worker, std::span<NearFaces> near) const override;
     void look(Worker& worker, const NearFaces& near) const override;
-    std::uint32_t leave_close(Worker& worker, std::uint32_t faces, const Vec3d& from, const Vec3d& to) const;
+    void make_lanes(Worker& worker) const;
     SurfaceMeeting element_of(const Worker& worker, const Least& least) const override;
     Vec3d before(std::uint32_t body, std::uint32_t vertex) const noexcept;
     void list_impacts();

@@ -92,6 +92,8 @@ protected:
 
     // Reads worker.tile.
     virtual void load(Worker& worker) const = 0;
+    // Takes faces that are certainly too far away out of what vertices are near to; may leave all.
+    virtual void sieve(Worker&, std::span<NearFaces>) const {}
     // Calls offer() for those of the faces that a vertex is near to which may be its least.
     virtual void look(Worker& worker, const NearFaces& near) const = 0;
     virtual Element element_of(const Worker& worker, const Least& least) const = 0;
@@ -182,12 +184,13 @@ private:
         reserve_growing(worker.of_vertex, pair.vertices.size());
         worker.of_vertex.assign(pair.vertices.size(), {most_, none_yet});
     }
-    void visit(const SurfaceTile& tile, std::span<const NearFaces> near, std::uint32_t w) final {
+    void visit(const SurfaceTile& tile, std::span<NearFaces> near, std::uint32_t w) final {
         Worker& worker = workers_[w];
         if (worker.tile != &tile) {
             worker.tile = &tile;
             load(worker);
         }
+        sieve(worker, near);
         for (const NearFaces& one : near) look(worker, one);
     }
     void end(std::uint32_t w) final {
@@ -195,6 +198,9 @@ private:
         reserve_growing(worker.found, worker.found.size() + worker.least.size());
         for (const Least& least : worker.least)
             worker.found.push_back({element_of(worker, least), least.number});
+    }
+    double latest(std::uint32_t place, std::uint32_t w) noexcept final {
+        return workers_[w].of_vertex[place].most;
     }
     // The least of each vertex and mesh, as pieces of a pair each found one.
     void put_in_order() {

@@ -28,7 +28,7 @@ float growth(const Box& box, double margin) noexcept {
 //     w . middle - |w| . half > reach |w|,    where |w| . half sums the products of magnitudes.
 // How w was found does not matter: here it is each axis, and then the point where the middles come closest.
 // The products are in doubles, whose rounding is less than that of a coordinate to a float by 2^-25.
-bool stay_apart(const MovingBox& a, const MovingBox& b, float reach) noexcept {
+bool stay_apart(const MovingBox& a, const MovingBox& b, float reach, double until) noexcept {
     double middle[2][3], half[2][3];
     const auto take = [&](int end, const Box& of_a, const Box& of_b) {
         for (int i = 0; i < 3; ++i) {
@@ -40,6 +40,10 @@ bool stay_apart(const MovingBox& a, const MovingBox& b, float reach) noexcept {
     };
     take(0, a.from, b.from);
     take(1, a.to, b.to);
+    for (int i = 0; until < 1 && i < 3; ++i) {
+        middle[1][i] = middle[0][i] + until * (middle[1][i] - middle[0][i]);
+        half[1][i] = half[0][i] + until * (half[1][i] - half[0][i]);
+    }
     for (int i = 0; i < 3; ++i)
         if ((middle[0][i] > half[0][i] && middle[1][i] > half[1][i]) ||
             (middle[0][i] < -half[0][i] && middle[1][i] < -half[1][i]))

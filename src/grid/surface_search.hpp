@@ -45,8 +45,8 @@ inline void add(MovingBox& a, const MovingBox& b) noexcept {
 }
 
 // Whether two that move certainly stay further apart than `reach`, which also covers what their coordinates
-// are rounded by.
-bool stay_apart(const MovingBox& a, const MovingBox& b, float reach) noexcept;
+// are rounded by; until a time, 1 being the end of the step.
+bool stay_apart(const MovingBox& a, const MovingBox& b, float reach, double until = 1) noexcept;
 
 // Half of how far apart two bodies with this box can be, as boxes of floats show it.
 float growth(const Box& box, double margin) noexcept;

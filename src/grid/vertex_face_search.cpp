@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/room.hpp"
+#include "base/vectors.hpp"
 #include "fast/broad_phase.hpp"
 #include "fast/stream.hpp"
 #include "mesh/check.hpp"
@@ -11,6 +12,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <utility>
 
 namespace vox {
 
@@ -27,6 +30,33 @@ void check_previous(const Body& body, const Positions& previous) {
                            result == VOX_ERROR_LIMIT ? "too large" : "not finite"),
                     vertex);
 }
+
+Vec3d middle_of(const Box& box) noexcept {
+    return 0.5 * (Vec3d{box.lo[0], box.lo[1], box.lo[2]} + Vec3d{box.hi[0], box.hi[1], box.hi[2]});
+}
+
+// Slabs of the faces of a tile, made when they are first needed.
+struct TileSlabs {
+    bool are_made = false;
+    FaceSlabs slabs;
+
+    // keep_near() for the low corners of boxes.
+    void keep(const SearchedBody& body, const SurfaceTile& tile, std::span<const Box> boxes, float reach,
+              std::uint32_t* met) {
+        if (!are_made) {
+            std::array<Vec3d, SurfaceTile::most_vertices> corners;
+            load_still(body, tile, corners.data());
+            load_slabs(*body.features, tile, corners.data(), slabs);
+            are_made = true;
+        }
+        std::array<Segment, NearFaces::at_once> segments;
+        for (std::size_t k = 0; k < boxes.size(); ++k) {
+            const Vec3d p{boxes[k].lo[0], boxes[k].lo[1], boxes[k].lo[2]};
+            segments[k] = {p, p};
+        }
+        keep_near(segments.data(), boxes.size(), slabs, reach, met);
+    }
+};
 
 } // namespace
 
@@ -48,6 +78,8 @@ void VertexFaceSearch::find_meeting(const StepScene& scene, std::span<const Posi
                                     KeptFeatures& kept) {
     bodies_.begin(scene);
     move_bodies(scene, previous);
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+        if (!is_empty(bodies_[b].box)) bodies_[b].grow = growth(bodies_[b].box, 0);
     find_pairs(scene, {scene.bodies, {}});
     erase_if(pairs_, [&](const fast::Pair& pair) {
         const SearchedBody &a = bodies_[pair.a], &b = bodies_[pair.b];
@@ -154,7 +186,19 @@ std::size_t VertexFaceSearch::list(const fast::Pair& pair, Lists& lists) const {
     for (const Box& group : lists.runs.groups) add(around_vertices, group);
     const Box reached = grown(around_vertices, reach);
     erase_if(lists.tiles, [&](std::uint32_t t) { return !overlap(tile_boxes[t], reached); });
+    if (moves(pair)) sort_by_motion(pair, lists.tiles);
     return lists.tiles.size();
+}
+
+// Tiles in front, as b moves relative to a, come first: what a vertex meets there leaves out most of the
+// others.
+void VertexFaceSearch::sort_by_motion(const fast::Pair& pair, Array<std::uint32_t>& tiles) const {
+    const auto way_of = [](const MovingBox& box) { return middle_of(box.to) - middle_of(box.from); };
+    const Vec3d way = way_of(bodies_[pair.b].moving_box) - way_of(bodies_[pair.a].moving_box);
+    const Box* const boxes = bodies_.tile_boxes(pair.b);
+    const auto place = [&](std::uint32_t tile) { return std::pair(-dot(way, middle_of(boxes[tile])), tile); };
+    std::sort(tiles.begin(), tiles.end(),
+              [&](std::uint32_t s, std::uint32_t t) { return place(s) < place(t); });
 }
 
 // From the blocks and the vertices that are left of them.
@@ -191,15 +235,13 @@ void VertexFaceSearch::make_runs(const SearchedBody& body, bool moves, Lists& li
 // The tiles [first, last) of the list against all of its vertices.
 void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Lists& lists, std::size_t first,
                                     std::size_t last, std::uint32_t worker) {
-    constexpr std::uint32_t at_once = 64;
+    constexpr std::uint32_t at_once = NearFaces::at_once;
     const SearchedBody &a = bodies_[pair.a], &b = bodies_[pair.b];
     const float reach = a.grow + b.grow;
     const bool is_moving = moves(pair);
     const float lanes_reach = reach + 16 * (growth(a.box, 0) + growth(b.box, 0));
     FaceBoxes faces;
-    FaceSlabs slabs;
-    std::array<Segment, at_once> segments;
-    std::array<Vec3d, SurfaceTile::most_vertices> corners;
+    TileSlabs slabs;
     // Vertices in the box of a tile, by their places.
     std::array<std::uint32_t, at_once> places, met_faces;
     std::array<Box, at_once> boxes;
@@ -212,8 +254,11 @@ void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Lists& lists, 
         if (is_moving)
             for (std::uint32_t v = 0; v < tile.vertex_count; ++v)
                 add(moving, b.moving_vertex(b.features->vertices[tile.first_vertex + v]));
-        const auto may_meet = [&](const MovingBox& other) { return !stay_apart(other, moving, reach); };
-        bool is_loaded = false, is_crowded = false, has_slabs = false;
+        const auto may_meet = [&](const MovingBox& other, double until = 1) {
+            return !stay_apart(other, moving, reach, until);
+        };
+        bool is_loaded = false, is_crowded = false;
+        slabs.are_made = false;
         OrientedBox oriented;
         const auto is_apart = [&](const Box& other) {
             return is_crowded && apart_along_axes(oriented, oriented_box(other), double{reach});
@@ -236,18 +281,8 @@ void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Lists& lists, 
                 for (std::uint32_t k = 0; k < count; ++k)
                     if (is_apart(boxes[k])) met_faces[k] = 0;
             }
-            if (is_crowded && is_crowd()) {
-                if (!has_slabs) {
-                    load_still(b, tile, corners.data());
-                    load_slabs(*b.features, tile, corners.data(), slabs);
-                }
-                has_slabs = true;
-                for (std::uint32_t k = 0; k < count; ++k) {
-                    const float* const p = boxes[k].lo;
-                    segments[k] = {{p[0], p[1], p[2]}, {p[0], p[1], p[2]}};
-                }
-                keep_near(segments.data(), count, slabs, lanes_reach, met_faces.data());
-            }
+            if (is_crowded && is_crowd())
+                slabs.keep(b, tile, std::span(boxes).first(count), lanes_reach, met_faces.data());
             std::size_t found = 0;
             for (std::uint32_t k = 0; k < count; ++k) {
                 near[found] = {places[k], met_faces[k]};
@@ -266,7 +301,7 @@ void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Lists& lists, 
                 places[count] = k;
                 boxes[count] = a.vertex_box(lists.vertices[k]);
                 count += overlap(boxes[count], box) && !is_apart(boxes[count]) &&
-                         (!is_moving || may_meet(a.moving_vertex(lists.vertices[k])));
+                         (!is_moving || may_meet(a.moving_vertex(lists.vertices[k]), latest(k, worker)));
                 if (count == at_once) compare();
             }
         });

@@ -28,6 +28,8 @@ struct VertexFacePair {
 // A vertex, by its place in VertexFacePair::vertices, and those faces of a tile whose boxes it meets, as
 // bits.
 struct NearFaces {
+    static constexpr std::uint32_t at_once = 64; // at most so many vertices of a tile are looked at together
+
     std::uint32_t place, faces;
 };
 
@@ -51,8 +53,10 @@ private:
     // Between begin() and end() of a worker is what it finds in some tiles of a pair, tile by tile. Calls of
     // different workers may be concurrent.
     virtual void begin(const VertexFacePair& pair, std::uint32_t worker) = 0;
-    virtual void visit(const SurfaceTile& tile, std::span<const NearFaces> near, std::uint32_t worker) = 0;
+    virtual void visit(const SurfaceTile& tile, std::span<NearFaces> near, std::uint32_t worker) = 0;
     virtual void end(std::uint32_t worker) = 0;
+    // In a search for meetings, after when one of a vertex, by its place, is of no interest any more.
+    virtual double latest(std::uint32_t place, std::uint32_t worker) noexcept = 0;
 
     struct Lists {
         explicit Lists(std::pmr::memory_resource* memory)
@@ -77,6 +81,7 @@ private:
         return bodies_[pair.a].before || bodies_[pair.b].before;
     }
     std::size_t list(const fast::Pair& pair, Lists& lists) const;
+    void sort_by_motion(const fast::Pair& pair, Array<std::uint32_t>& tiles) const;
     void make_runs(const SearchedBody& body, bool moves, Lists& lists) const;
     void search_tiles(const fast::Pair& pair, const Lists& lists, std::size_t first, std::size_t last,
                       std::uint32_t worker);

@@ -174,17 +174,11 @@ template <int kA, int kB>
 struct CullAxes {
     static constexpr int kEdgesA = kA == 3 ? 3 : kA - 1,
                          kEdgesB = kB == 3 ? 3 : kB - 1; // each without a repetition
-    static constexpr int kProducts = kEdgesA * kEdgesB, kCount = 4 + kProducts + (kA == 3) + (kB == 3);
+    static constexpr int kProducts = kEdgesA * kEdgesB, kCount = 3 + kProducts + (kA == 3) + (kB == 3);
 
     static HWY_INLINE CV3 Normal(const CV3* c) { return CCross(CSub(c[1], c[0]), CSub(c[2], c[0])); }
 
     static HWY_INLINE CV3 At(int axis, const CullPair<kA, kB>& pair) {
-        if (axis == 0) { // across the relative motion, where the middles come closest
-            const CV3 from = CSub(MiddleOf<kA>(pair.a[0]), MiddleOf<kB>(pair.b[0])),
-                      to = CSub(MiddleOf<kA>(pair.a[1]), MiddleOf<kB>(pair.b[1])), way = CSub(to, from);
-            return CAddScaled(from, CUnit(hn::Neg(CDot(from, way)), CDot(way, way)), way);
-        }
-        axis -= 1;
         if (axis < 2) return Between<kA, kB>(pair.a[axis], pair.b[axis]);
         if (axis == 2) { // halfway, for what passes by
             CV3 a[kA], b[kB];
@@ -209,6 +203,31 @@ struct CullAxes {
     }
 };
 
+// Lanes that follow each other, without looking any up. The axis is across the relative motion, where the
+// middles come closest.
+std::uint32_t CullAcross(const CullTile& tile, const CullPartner& vertex, std::uint32_t lanes) {
+    const CullFloats d;
+    const std::size_t width = hn::Lanes(d);
+    CullPair<3, 1> pair;
+    pair.apart = CSet(0);
+    pair.error = hn::Mul(CSet(vertex.largest), CSet(1.125f * 0x1p-20f));
+    for (int t = 0; t < 2; ++t)
+        pair.b[t][0] = {CSet(vertex.at[t][0][0]), CSet(vertex.at[t][0][1]), CSet(vertex.at[t][0][2])};
+    std::uint32_t kept = 0;
+    for (std::size_t first = 0; first < 32 && lanes >> first != 0; first += width) {
+        for (int t = 0; t < 2; ++t)
+            for (int i = 0; i < 3; ++i)
+                pair.a[t][i] = {hn::Load(d, tile.at[t][i][0] + first), hn::Load(d, tile.at[t][i][1] + first),
+                                hn::Load(d, tile.at[t][i][2] + first)};
+        const CV3 from = CSub(MiddleOf<3>(pair.a[0]), pair.b[0][0]),
+                  way = CSub(CSub(MiddleOf<3>(pair.a[1]), pair.b[1][0]), from);
+        const CV3 axis = CAddScaled(from, CUnit(hn::Neg(CDot(from, way)), CDot(way, way)), way);
+        const std::uint64_t close = ~BitsOfMask(d, pair.StayApart(axis)) & ((std::uint64_t{1} << width) - 1);
+        kept |= static_cast<std::uint32_t>(close << first);
+    }
+    return kept & lanes;
+}
+
 // One axis after the other, each with all pairs that are left, so that lanes are full.
 template <int kA, int kB>
 HWY_INLINE std::size_t CullPairsOf(const CullPairs& pairs) {
@@ -220,7 +239,7 @@ HWY_INLINE std::size_t CullPairsOf(const CullPairs& pairs) {
     CullPair<kA, kB> pair;
     pair.apart = CSet(pairs.apart);
     std::size_t count = pairs.count;
-    for (int axis = pairs.along ? 0 : 1; axis < CullAxes<kA, kB>::kCount && count > 0; ++axis) {
+    for (int axis = 0; axis < CullAxes<kA, kB>::kCount && count > 0; ++axis) {
         std::size_t kept = 0;
         for (std::size_t first = 0; first < count; first += width) {
             const std::size_t some = count - first < width ? count - first : width;
@@ -301,6 +320,9 @@ void put_corners(const CullFrame& frame, std::span<const Vec3d> positions,
 
 } // namespace
 
+std::uint32_t cull_across(const CullTile& tile, const CullPartner& vertex, std::uint32_t lanes) {
+    return VOX_SIMD_DISPATCH(CullAcross)(tile, vertex, lanes);
+}
 std::size_t cull_some(const CullPairs& pairs) { return VOX_SIMD_DISPATCH(Cull)(pairs); }
 
 namespace {

@@ -34,7 +34,6 @@ struct CullPairs {
     const CullPartner* partners;
     unsigned corners, partner_corners;
     float apart;                    // in the frame
-    bool along;                     // try first the axis across the relative motion
     std::uint32_t *lanes, *partner; // of each pair
     std::size_t count;
 };
@@ -42,6 +41,9 @@ struct CullPairs {
 // Keeps the pairs that are not proven to stay further than `apart` from each other, in their order, and
 // returns their number.
 std::size_t cull_some(const CullPairs& pairs);
+
+// Of lanes of faces, as bits, those that a first axis does not prove to stay apart from a vertex, fast.
+std::uint32_t cull_across(const CullTile& tile, const CullPartner& vertex, std::uint32_t lanes);
 
 // Around the whole motion; or along with the tile, which takes away the motion that others share with it.
 CullFrame frame_around(const SurfaceMotion& motion, std::span<const std::uint32_t> vertices) noexcept;

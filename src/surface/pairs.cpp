@@ -156,7 +156,7 @@ void PairSearch::cull_found(const Task& task, const TileSearch& tile, Worker& wo
             found[end].lanes = 0;
         }
         const std::size_t kept =
-            cull_some({worker.tile, batch.partners.data(), a.corner_count, b.corner_count, apart, false,
+            cull_some({worker.tile, batch.partners.data(), a.corner_count, b.corner_count, apart,
                        batch.pair_lanes.data(), batch.pair_partners.data(), count});
         worker.culled += count - kept;
         for (std::size_t i = 0; i < kept; ++i)

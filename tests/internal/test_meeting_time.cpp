@@ -14,6 +14,12 @@ using namespace vox;
 
 namespace {
 
+std::uint64_t tests_so_far = 0;
+
+double meeting_time(const SeenMotion& motion, double latest) {
+    return vox::meeting_time(motion, latest, tests_so_far);
+}
+
 Vec3d small_integers(std::uint64_t& state, std::uint32_t range) {
     const auto number = [&] {
         return static_cast<double>(random_below(&state, 2 * range + 1)) - static_cast<double>(range);
@@ -134,4 +140,29 @@ START_TEST(degenerate) {
 }
 END_TEST
 
-SUITE(meeting_time) { tcase_add_each(add_case(suite, "meeting_time"), never_late, tight, none, degenerate); }
+// Of what goes straight through a face, or all through one point, few intervals are tested.
+START_TEST(few_tests) {
+    std::uint64_t state = 4;
+    constexpr std::uint64_t count = 10000;
+    for (const bool collapses : {false, true}) {
+        const std::uint64_t before = tests_so_far;
+        for (std::uint64_t i = 0; i < count; ++i) {
+            const double power = random_unit(&state);
+            const Vec3d way{random_symmetric(&state), random_symmetric(&state), -4};
+            SeenMotion m;
+            for (int c = 0; c < 3; ++c) {
+                const double x = c == 0 ? 2 : -1, y = c == 1 ? 2 : -1;
+                m.from[c] = {x + random_unit(&state), y + random_unit(&state), 1 + random_unit(&state)};
+                m.to[c] = collapses ? -power * m.from[c] : m.from[c] + way;
+            }
+            const double found = meeting_time(m, 1);
+            if (collapses) ck_assert_double_eq_tol(found, 1 / (1 + power), 1e-12);
+        }
+        ck_assert_uint_lt(tests_so_far - before, 6 * count);
+    }
+}
+END_TEST
+
+SUITE(meeting_time) {
+    tcase_add_each(add_case(suite, "meeting_time"), never_late, tight, none, degenerate, few_tests);
+}
