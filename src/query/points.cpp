@@ -8,6 +8,7 @@
 #include "base/boxes.hpp"
 #include "base/rounding.hpp"
 #include "exact/predicates.hpp"
+#include "query/weigher.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -86,6 +87,7 @@ void Queries::for_found(std::span<const Vec3d> points, QueryMeshes which, std::p
 
 void Queries::points(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
                      HitList<vox_point_hit>& hits) const {
+    Weigher weigher(Weigher::Of::inside);
     for_found(points, which, memory, [&](std::size_t point, std::span<const PointHit> found) {
         const bool any_interior =
             std::any_of(found.begin(), found.end(), [](const PointHit& hit) { return hit.interior; });
@@ -95,14 +97,29 @@ void Queries::points(std::span<const Vec3d> points, QueryMeshes which, std::pmr:
             if (any_interior && !hit.interior) continue;
             vox_point_hit* const out = hits.add();
             if (!out) continue; // no room
-            const LeafTets tets = tets_of(leaves_[hit.leaf]);
-            const std::size_t t = hit.place;
             *out = {static_cast<std::uint32_t>(point), meshes_[hit.mesh].id, hit.tet, 0, {}};
-            std::ranges::copy(barycentric(points[point], tets.corner(t, 0), tets.corner(t, 1),
-                                          tets.corner(t, 2), tets.corner(t, 3)),
-                              out->weights);
+            weigher.add(points[point], tets_of(leaves_[hit.leaf]), hit.place, out->weights);
         }
     });
+}
+
+void Queries::locations(std::span<const Vec3d> points, double max_distance, bool extrapolate,
+                        QueryMeshes which, std::pmr::memory_resource* memory, vox_location* out) const {
+    std::fill_n(out, points.size(), vox_location{});
+    std::size_t located = 0;
+    {
+        Weigher weigher(Weigher::Of::inside);
+        for_found(points, which, memory, [&](std::size_t point, std::span<const PointHit> found) {
+            vox_location& location = out[point];
+            if (location.state != VOX_LOCATION_NONE) return; // in a lower body
+            const auto interior = std::ranges::find(found, true, &PointHit::interior);
+            const PointHit& hit = interior != found.end() ? *interior : found[0];
+            location = {meshes_[hit.mesh].id, hit.tet, VOX_LOCATION_INSIDE, 0, {}, 0};
+            weigher.add(points[point], tets_of(leaves_[hit.leaf]), hit.place, location.weights);
+            ++located;
+        });
+    }
+    if (located < points.size()) locate_outside(points, max_distance, extrapolate, which, memory, out);
 }
 
 void Queries::count_inside(std::span<const Vec3d> points, QueryMeshes which,

@@ -62,6 +62,9 @@ public:
     // Hits of points[0], points[1], ... in canonical order; `memory` is for temporary use.
     void points(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
                 HitList<vox_point_hit>& hits) const;
+    // One location a point; `memory` is for temporary use.
+    void locations(std::span<const Vec3d> points, double max_distance, bool extrapolate, QueryMeshes which,
+                   std::pmr::memory_resource* memory, vox_location* out) const;
     // One hit a point; `memory` is for temporary use.
     void closest_points(std::span<const Vec3d> points, double max_distance, QueryMeshes which,
                         std::pmr::memory_resource* memory, vox_closest_hit* hits) const;
@@ -100,6 +103,7 @@ private:
         std::uint32_t leaf, place; // of the tetrahedron in leaves_, and in the tile
     };
     class Batch;
+    class Weigher;
     using FacetKey = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>; // mesh in meshes_, tet, facet
     struct ClosestFacet;
 
@@ -132,6 +136,13 @@ private:
     template <class Bound, class Visit>
     void visit_facets(QueryMeshes which, const double& most, const Bound& bound, Visit&& visit) const;
     void find_closest(const Vec3d& p, QueryMeshes which, ClosestFacet& closest) const noexcept;
+    // Calls answer(index, closest facet) for each point, in any order.
+    template <class Answer>
+    void for_closest(std::span<const Vec3d> points, double max_distance, QueryMeshes which,
+                     std::pmr::memory_resource* memory, Answer&& answer) const;
+    // For the points that were not located.
+    void locate_outside(std::span<const Vec3d> points, double max_distance, bool extrapolate,
+                        QueryMeshes which, std::pmr::memory_resource* memory, vox_location* out) const;
 
     Array<Mesh> meshes_;    // ascending by id
     Array<Vec3d> vertices_; // mesh after mesh
