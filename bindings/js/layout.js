@@ -175,6 +175,14 @@ export const structs = {
     reserved: [20, "u32", 1],
     max_distance: [24, "f64", 1],
   } },
+  vox_location: { size: 56, defaults: {  }, fields: {
+    body: [0, "u32", 1],
+    tet: [4, "u32", 1],
+    state: [8, "i32", 1],
+    reserved: [12, "u32", 1],
+    weights: [16, "f64", 4],
+    distance: [48, "f64", 1],
+  } },
   vox_point_hit: { size: 48, defaults: {  }, fields: {
     point: [0, "u32", 1],
     body: [4, "u32", 1],
@@ -405,6 +413,7 @@ export const functions = {
   vox_locator_release: ["void", ["pointer"]],
   vox_locator_get_epoch: ["result", ["pointer", "pointer"]],
   vox_locator_get_user_data: ["result", ["pointer", "u32", "pointer"]],
+  vox_locator_locate: ["result", ["pointer", "pointer", "pointer", "pointer"]],
   vox_locator_find_point_hits: ["result", ["pointer", "pointer", "pointer", "pointer", "count", "pointer"]],
   vox_locator_find_closest: ["result", ["pointer", "pointer", "pointer", "pointer"]],
   vox_locator_find_box_hits: ["result", ["pointer", "pointer", "pointer", "pointer", "pointer", "count", "pointer"]],

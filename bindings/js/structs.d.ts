@@ -1,7 +1,7 @@
 // Written by bindings/generate.py from bindings/api.json. Do not edit.
 
 import type { CellsKept, CellsQueried, CellsStored, ConstraintKind, CostModel, DepthMethod, DepthState, Format,
-KnownGrid, PairState, PrimitiveType, Result, Side } from "./enums.js";
+KnownGrid, LocationState, PairState, PrimitiveType, Result, Side } from "./enums.js";
 
 /** Settings of a grid; all 0 by default. What the pointers name is copied. */
 export interface GridDesc {
@@ -250,8 +250,37 @@ export interface QueryDesc {
   mask: bigint;
   /** not this body, e.g. the one that asks; an id that the locator does not have excludes none */
   excluded: number;
-  /** vox_locator_find_closest: no further than this, in the caller's unit; 0: any distance */
+  /** vox_locator_locate and vox_locator_find_closest: no further than this, in the caller's unit; 0: any distance */
   maxDistance: number;
+}
+
+/**
+ * Where a point is, and the weights that interpolate a field there. If several tetrahedra contain the point, this is
+ * one of the lowest body: the lowest that has the point in its interior or, if there is none, the lowest that has it on
+ * its boundary.
+ */
+export interface Location {
+  body: number;
+  tet: number;
+  state: LocationState;
+  /**
+   * Of the tetrahedron's corners, for the point or, if it is outside, for the closest point; VOX_QUERY_EXTRAPOLATE asks
+   * for the point. Each is rounded from the true weight once, or off by 2^-58 more. Exceptions are the closest points
+   * of facets thinner than 2^-20 of their length or with an edge below 2^-40 of the distance, and a flat tetrahedron is
+   * not extrapolated.
+   */
+  weights: [number, number, number, number];
+  /** to the closest point, in the caller's unit; 0 inside */
+  distance: number;
+}
+
+/** Columns of Location: of an array field, its elements one after the other. */
+export interface LocationColumns {
+  readonly body: Uint32Array;
+  readonly tet: Uint32Array;
+  readonly state: Int32Array;
+  readonly weights: Float64Array;
+  readonly distance: Float64Array;
 }
 
 /** A tetrahedron that contains a point. */
@@ -260,7 +289,7 @@ export interface PointHit {
   point: number;
   body: number;
   tet: number;
-  /** of the tetrahedron's corners, in [0, 1], each within 2^-41 of the true one */
+  /** of the tetrahedron's corners, in [0, 1]; as accurate as in vox_location */
   weights: [number, number, number, number];
 }
 

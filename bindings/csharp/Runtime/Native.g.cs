@@ -145,6 +145,20 @@ namespace Voxtet
     {
         /// <summary>vox_locator_find_ray_hits: report only the first hit of each ray</summary>
         FirstHit = 1,
+        /// <summary>vox_locator_locate: for a point outside, compute the weights of the point itself, some of which are
+        /// negative, rather than of the closest point</summary>
+        Extrapolate = 2,
+    }
+
+    public enum LocationState : int
+    {
+        /// <summary>no body is within max_distance; the other fields are 0</summary>
+        None = 0,
+        /// <summary>the closed tetrahedron contains the point</summary>
+        Inside = 1,
+        /// <summary>no tetrahedron contains the point; this one has the closest point of all surfaces, as
+        /// vox_locator_find_closest finds it</summary>
+        Outside = 2,
     }
 
     public enum Side : int
@@ -892,8 +906,25 @@ namespace Voxtet
         public uint excluded;
         /// <summary>0</summary>
         public uint reserved;
-        /// <summary>vox_locator_find_closest: no further than this, in the caller's unit; 0: any distance</summary>
+        /// <summary>vox_locator_locate and vox_locator_find_closest: no further than this, in the caller's unit; 0: any
+        /// distance</summary>
         public double max_distance;
+    }
+
+    /// <summary>Where a point is, and the weights that interpolate a field there.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 56)]
+    public struct Location
+    {
+        public uint body;
+        public uint tet;
+        public LocationState state;
+        /// <summary>0</summary>
+        public uint reserved;
+        /// <summary>Of the tetrahedron's corners, for the point or, if it is outside, for the closest point;
+        /// VOX_QUERY_EXTRAPOLATE asks for the point.</summary>
+        public Double4 weights;
+        /// <summary>to the closest point, in the caller's unit; 0 inside</summary>
+        public double distance;
     }
 
     /// <summary>A tetrahedron that contains a point.</summary>
@@ -906,7 +937,7 @@ namespace Voxtet
         public uint tet;
         /// <summary>0</summary>
         public uint reserved;
-        /// <summary>of the tetrahedron's corners, in [0, 1], each within 2^-41 of the true one</summary>
+        /// <summary>of the tetrahedron's corners, in [0, 1]; as accurate as in vox_location</summary>
         public Double4 weights;
     }
 
@@ -2002,6 +2033,11 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_locator_get_user_data(IntPtr locator, uint body, ulong* out_user_data);
 
+        /// <summary>Locates points: out_locations[i] is for point i, and depends on no other point.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_locator_locate(IntPtr locator, Positions* points, QueryDesc* desc, Location*
+            out_locations);
+
         /// <summary>Finds the tetrahedra that contain points, by the rule of vox_contact: every tetrahedron of a body
         /// that has the point in its interior or, if there is none, the lowest that has it on its boundary.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2557,6 +2593,19 @@ namespace Voxtet
             entries.Add(Entry("vox_query_desc.excluded", (byte*)&s.excluded - begin, 16, 16));
             entries.Add(Entry("vox_query_desc.reserved", (byte*)&s.reserved - begin, 20, 20));
             entries.Add(Entry("vox_query_desc.max_distance", (byte*)&s.max_distance - begin, 24, 24));
+        }
+
+        static void AddLocation(List<LayoutEntry> entries)
+        {
+            Location s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_location", sizeof(Location), 56, 56));
+            entries.Add(Entry("vox_location.body", (byte*)&s.body - begin, 0, 0));
+            entries.Add(Entry("vox_location.tet", (byte*)&s.tet - begin, 4, 4));
+            entries.Add(Entry("vox_location.state", (byte*)&s.state - begin, 8, 8));
+            entries.Add(Entry("vox_location.reserved", (byte*)&s.reserved - begin, 12, 12));
+            entries.Add(Entry("vox_location.weights", (byte*)&s.weights - begin, 16, 16));
+            entries.Add(Entry("vox_location.distance", (byte*)&s.distance - begin, 48, 48));
         }
 
         static void AddPointHit(List<LayoutEntry> entries)
@@ -3204,6 +3253,7 @@ namespace Voxtet
             AddLog(entries);
             AddTaskSystem(entries);
             AddQueryDesc(entries);
+            AddLocation(entries);
             AddPointHit(entries);
             AddClosestHit(entries);
             AddBoxHit(entries);

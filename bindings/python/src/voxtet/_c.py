@@ -104,6 +104,13 @@ class LogLevel(enum.IntEnum):
 
 class QueryFlags(enum.IntFlag):
     FIRST_HIT = 1
+    EXTRAPOLATE = 2
+
+
+class LocationState(enum.IntEnum):
+    NONE = 0
+    INSIDE = 1
+    OUTSIDE = 2
 
 
 class Side(enum.IntEnum):
@@ -553,6 +560,23 @@ dtypes["vox_query_desc"] = dtype({
     "formats": ["u4", "u4", "u8", "u4", "u4", "f8"],
     "offsets": [0, 4, 8, 16, 20, 24],
     "itemsize": 32})
+
+
+class vox_location(Structure):
+    _fields_ = [
+        ("body", c_uint32),
+        ("tet", c_uint32),
+        ("state", c_int32),
+        ("reserved", c_uint32),
+        ("weights", c_double * 4),
+        ("distance", c_double),
+    ]
+
+dtypes["vox_location"] = dtype({
+    "names": ["body", "tet", "state", "reserved", "weights", "distance"],
+    "formats": ["u4", "u4", "i4", "u4", ("f8", (4,)), "f8"],
+    "offsets": [0, 4, 8, 12, 16, 48],
+    "itemsize": 56})
 
 
 class vox_point_hit(Structure):
@@ -1256,6 +1280,7 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_locator_release": (None, (c_void_p,)),
         "vox_locator_get_epoch": (vox_result, (c_void_p, POINTER(c_uint64))),
         "vox_locator_get_user_data": (vox_result, (c_void_p, c_uint32, POINTER(c_uint64))),
+        "vox_locator_locate": (vox_result, (c_void_p, POINTER(vox_positions), POINTER(vox_query_desc), c_void_p)),
         "vox_locator_find_point_hits": (vox_result, (c_void_p, POINTER(vox_positions), POINTER(vox_query_desc),
             c_void_p, c_uint64, POINTER(c_uint64))),
         "vox_locator_find_closest": (vox_result, (c_void_p, POINTER(vox_positions), POINTER(vox_query_desc), c_void_p)),
