@@ -383,6 +383,32 @@ export interface RayHitColumns {
   readonly weights: Float64Array;
 }
 
+/** The part of a segment that lies in one tetrahedron. A segment is a closed one, as a ray is. */
+export interface TrackPiece {
+  /** index of the segment */
+  segment: number;
+  body: number;
+  tet: number;
+  /** where the segment enters the tetrahedron, the lowest of several; VOX_NONE if the piece begins elsewhere */
+  facetIn: number;
+  /** where it leaves; VOX_NONE if the piece ends elsewhere */
+  facetOut: number;
+  /** the doubles nearest to the true ones */
+  tIn: number;
+  tOut: number;
+}
+
+/** Columns of TrackPiece: of an array field, its elements one after the other. */
+export interface TrackPieceColumns {
+  readonly segment: Uint32Array;
+  readonly body: Uint32Array;
+  readonly tet: Uint32Array;
+  readonly facetIn: Uint32Array;
+  readonly facetOut: Uint32Array;
+  readonly tIn: Float64Array;
+  readonly tOut: Float64Array;
+}
+
 /** A point of a cost curve. */
 export interface CostSample {
   cellSize: number;

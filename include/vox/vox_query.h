@@ -210,6 +210,31 @@ VOX_API vox_result vox_locator_find_ray_hits(const vox_locator* locator, const v
 VOX_API vox_result vox_locator_test_rays(const vox_locator* locator, const vox_positions* from, const vox_positions* to,
                                          VOX_OPTIONAL const vox_query_desc* desc, uint8_t* out_blocked);
 
+/* ---- tracks ----------------------------------------------------------------------------------- */
+
+/* The part of a segment that lies in one tetrahedron. A segment is a closed one, as a ray is. */
+typedef struct vox_track_piece {
+    uint32_t segment; /* index of the segment */
+    vox_body body;
+    uint32_t tet;
+    uint32_t facet_in;  /* where the segment enters the tetrahedron, the lowest of several; VOX_NONE if the piece begins
+                           elsewhere */
+    uint32_t facet_out; /* where it leaves; VOX_NONE if the piece ends elsewhere */
+    uint32_t reserved;  /* 0 */
+    double t_in;        /* the doubles nearest to the true ones */
+    double t_out;
+} vox_track_piece;
+
+/* Finds the tetrahedra that segments pass through, sorted by (segment, body, t_in, t_out, tet). By the rule of
+ * vox_contact, every stretch of a segment belongs to each tetrahedron of a body that has it in its interior or, if there
+ * is none, to the lowest that has it in a facet or an edge. So the pieces in a body whose tetrahedra do not overlap have
+ * no gap inside the body and do not overlap: t_out of one is t_in of the next, bit for bit. Which tetrahedra a segment
+ * passes through is exact. A point is no piece: segments that only touch a tetrahedron, and those without length, have
+ * none there. */
+VOX_EXPERIMENTAL vox_result vox_locator_find_tracks(const vox_locator* locator, const vox_positions* from,
+                                                    const vox_positions* to, VOX_OPTIONAL const vox_query_desc* desc,
+                                                    vox_track_piece* pieces, uint64_t capacity, uint64_t* out_count);
+
 #ifdef __cplusplus
 }
 #endif

@@ -94,6 +94,18 @@ public:
         detail::check(vox_locator_test_rays(raw_, &from, &to, &desc, blocked.data()));
         return blocked;
     }
+    // vox_locator_find_tracks
+    std::vector<vox_track_piece> find_tracks(const points& from, const points& to,
+                                             const vox_query_desc& desc = any()) const {
+        return detail::collect<vox_track_piece>(
+            16, [&](auto... out) { return vox_locator_find_tracks(raw_, &from, &to, &desc, out...); });
+    }
+    std::uint64_t find_tracks(const points& from, const points& to, span<vox_track_piece> out,
+                              const vox_query_desc& desc = any()) const {
+        return detail::filled<std::uint64_t>([&](std::uint64_t* count) {
+            return vox_locator_find_tracks(raw_, &from, &to, &desc, out.data(), out.size(), count);
+        });
+    }
 
 private:
     explicit locator(vox_locator* raw) noexcept : raw_(raw) {}

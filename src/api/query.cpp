@@ -207,6 +207,22 @@ vox_result vox_locator_find_ray_hits(const vox_locator* locator, const vox_posit
     });
 }
 
+vox_result vox_locator_find_tracks(const vox_locator* locator, const vox_positions* from,
+                                   const vox_positions* to, const vox_query_desc* desc,
+                                   vox_track_piece* pieces, uint64_t capacity, uint64_t* out_count) {
+    return border(locator, "locator", [&] {
+        if (capacity > 0) require(pieces, "pieces");
+        require(out_count, "out_count");
+        const Asked asked = read_desc(desc);
+        CallMemory memory;
+        const Array<Vec3d> begins = read_points(from, "from", &memory), ends = read_points(to, "to", &memory);
+        check_same_count(*from, "from", *to, "to");
+        HitList<vox_track_piece> list(pieces, capacity);
+        locator->queries.tracks(begins, ends, asked.bodies, &memory, list);
+        *out_count = list.count();
+    });
+}
+
 vox_result vox_locator_test_rays(const vox_locator* locator, const vox_positions* from,
                                  const vox_positions* to, const vox_query_desc* desc, uint8_t* out_blocked) {
     return border(locator, "locator", [&] {

@@ -45,9 +45,9 @@ HWY_INLINE TwofoldMinor AccurateMinor(const TwofoldPoint& u, const TwofoldPoint&
 HWY_INLINE Twofold AccurateDeterminant(const Twofold& uz, const TwofoldMinor& vw, const Twofold& vz,
                                        const TwofoldMinor& uw, const Twofold& wz, const TwofoldMinor& uv,
                                        WideDouble& most) {
-    const WideDouble permanent = hn::Add(
-        hn::Add(hn::Mul(hn::Abs(uz.high), vw.magnitude), hn::Mul(hn::Abs(vz.high), uw.magnitude)),
-        hn::Mul(hn::Abs(wz.high), uv.magnitude));
+    const WideDouble permanent =
+        hn::Add(hn::Add(hn::Mul(hn::Abs(uz.high), vw.magnitude), hn::Mul(hn::Abs(vz.high), uw.magnitude)),
+                hn::Mul(hn::Abs(wz.high), uv.magnitude));
     most = hn::Max(most, permanent);
     return uz * vw.value - vz * uw.value + wz * uv.value;
 }
@@ -89,7 +89,8 @@ HWY_INLINE std::uint64_t AccurateWeightsOf(const PointBlock& block, std::size_t 
 }
 
 // The closest point of an edge: how far along it, and its squared distance.
-HWY_INLINE void ClosestOnEdge(const TwofoldPoint& way, const TwofoldPoint& edge, Twofold& along, Twofold& squared) {
+HWY_INLINE void ClosestOnEdge(const TwofoldPoint& way, const TwofoldPoint& edge, Twofold& along,
+                              Twofold& squared) {
     const WideDoubles d;
     const WideDouble zero = hn::Zero(d), one = hn::Set(d, 1.0);
     along = Dot(way, edge) / Dot(edge, edge);
@@ -132,8 +133,9 @@ HWY_INLINE std::uint64_t ClosestWeightsOf(const PointBlock& block, std::size_t c
         for (int n = 0; n < 3; ++n) {
             Twofold along, squared;
             ClosestOnEdge(from[n], edge[n], along, squared);
-            const auto lower = hn::Or(hn::Lt(squared.high, nearest.high),
-                                      hn::And(hn::Eq(squared.high, nearest.high), hn::Lt(squared.low, nearest.low)));
+            const auto lower =
+                hn::Or(hn::Lt(squared.high, nearest.high),
+                       hn::And(hn::Eq(squared.high, nearest.high), hn::Lt(squared.low, nearest.low)));
             const auto better = n == 0 ? hn::Not(above) : hn::AndNot(above, lower);
             nearest.high = hn::IfThenElse(better, squared.high, nearest.high);
             nearest.low = hn::IfThenElse(better, squared.low, nearest.low);
@@ -146,19 +148,64 @@ HWY_INLINE std::uint64_t ClosestWeightsOf(const PointBlock& block, std::size_t c
     return uncertain;
 }
 
+HWY_INLINE WideDouble SizeOfProducts(const TwofoldPoint& a, const TwofoldPoint& b, const TwofoldPoint& c) {
+    const auto size = [](const Twofold& x, const Twofold& y, const Twofold& z)
+                          HWY_ATTR { return hn::Abs(hn::Mul(x.high, hn::Mul(y.high, z.high))); };
+    const WideDouble x = hn::Add(size(a.x, b.y, c.z), size(a.x, b.z, c.y)),
+                     y = hn::Add(size(a.y, b.z, c.x), size(a.y, b.x, c.z)),
+                     z = hn::Add(size(a.z, b.x, c.y), size(a.z, b.y, c.x));
+    return hn::Add(hn::Add(x, y), z);
+}
+
+// Returns a bit for each crossing whose rounding is not certain.
+HWY_INLINE std::uint64_t CrossingsOf(const PointBlock& block, std::size_t count, Crossings& out) {
+    const WideDoubles d;
+    const WideDouble least = hn::Set(d, least_accurate);
+    std::uint64_t uncertain = 0;
+    for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+        WideDouble from[3], corner[4][3];
+        LoadPoint(block.point, i, from);
+        for (int c = 0; c < 4; ++c) LoadPoint(block.corner[c], i, corner[c]);
+        const TwofoldPoint u = Between(corner[0], corner[1]), v = Between(corner[0], corner[2]),
+                           before = Between(from, corner[0]), way = Between(from, corner[3]),
+                           normal = Cross(u, v);
+        const Twofold over = Dot(before, normal), under = Dot(way, normal), place = over / under;
+        // Each volume is off by less than 2^-98 of the size of its products.
+        const WideDouble relative = hn::Add(hn::Div(SizeOfProducts(before, u, v), hn::Abs(over.high)),
+                                            hn::Div(SizeOfProducts(way, u, v), hn::Abs(under.high)));
+        const WideDouble error = hn::Mul(hn::Mul(hn::Set(d, 0x1p-96), relative), hn::Abs(place.high));
+        const auto certain =
+            hn::And(hn::And(hn::Eq(hn::Add(place.high, hn::Add(place.low, error)), place.high),
+                            hn::Eq(hn::Add(place.high, hn::Sub(place.low, error)), place.high)),
+                    hn::Gt(hn::Min(hn::Abs(over.high), hn::Abs(under.high)), least));
+        if (!hn::AllTrue(d, certain)) uncertain |= BitsOf(hn::Not(certain), i);
+        hn::Store(place.high, d, out.t + i);
+    }
+    return uncertain;
+}
+
 #else // without registers of doubles, every point is left to exact arithmetic
 
-std::uint64_t AccurateWeightsOf(const PointBlock&, std::size_t, bool, AccurateWeights&) { return ~std::uint64_t{0}; }
+std::uint64_t AccurateWeightsOf(const PointBlock&, std::size_t, bool, AccurateWeights&) {
+    return ~std::uint64_t{0};
+}
 std::uint64_t ClosestWeightsOf(const PointBlock&, std::size_t, AccurateWeights&) { return ~std::uint64_t{0}; }
+
+std::uint64_t CrossingsOf(const PointBlock&, std::size_t, Crossings&) { return ~std::uint64_t{0}; }
 
 #endif
 
-std::uint64_t WeighAccurately(const PointBlock& block, std::size_t count, bool clamped, AccurateWeights& out) {
+std::uint64_t WeighAccurately(const PointBlock& block, std::size_t count, bool clamped,
+                              AccurateWeights& out) {
     return AccurateWeightsOf(block, count, clamped, out);
 }
 
 std::uint64_t WeighClosest(const PointBlock& block, std::size_t count, AccurateWeights& out) {
     return ClosestWeightsOf(block, count, out);
+}
+
+std::uint64_t CrossPlanes(const PointBlock& block, std::size_t count, Crossings& out) {
+    return CrossingsOf(block, count, out);
 }
 
 } // namespace HWY_NAMESPACE
@@ -168,18 +215,36 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace vox {
 
-void weigh_accurately(const PointBlock& block, std::size_t count, bool clamped, AccurateWeights& out) {
-    std::uint64_t uncertain = VOX_SIMD_DISPATCH(WeighAccurately)(block, count, clamped, out) &
-                              ~std::uint64_t{0} >> (point_block - count);
-    for (; uncertain; uncertain &= uncertain - 1) {
+namespace {
+
+// Calls work(i, points...) for each bit of the first `count`.
+template <class Work>
+void for_uncertain(std::uint64_t uncertain, const PointBlock& block, std::size_t count, Work&& work) {
+    for (uncertain &= ~std::uint64_t{0} >> (point_block - count); uncertain; uncertain &= uncertain - 1) {
         const auto i = static_cast<std::size_t>(std::countr_zero(uncertain));
-        const auto at = [&](const double(&of)[3][point_block]) {
+        const auto at = [i](const double(&of)[3][point_block]) {
             return Vec3d{of[0][i], of[1][i], of[2][i]};
         };
-        const std::array<double, 4> weights = exact_weights(at(block.point), at(block.corner[0]), at(block.corner[1]),
-                                                            at(block.corner[2]), at(block.corner[3]));
-        for (std::size_t c = 0; c < 4; ++c) out.weight[c][i] = weights[c];
+        work(i, at(block.point), at(block.corner[0]), at(block.corner[1]), at(block.corner[2]),
+             at(block.corner[3]));
     }
+}
+
+} // namespace
+
+void weigh_accurately(const PointBlock& block, std::size_t count, bool clamped, AccurateWeights& out) {
+    for_uncertain(VOX_SIMD_DISPATCH(WeighAccurately)(block, count, clamped, out), block, count,
+                  [&out](std::size_t i, const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c,
+                         const Vec3d& d) {
+                      const std::array<double, 4> weights = exact_weights(p, a, b, c, d);
+                      for (std::size_t n = 0; n < 4; ++n) out.weight[n][i] = weights[n];
+                  });
+}
+
+void cross_planes(const PointBlock& block, std::size_t count, Crossings& out) {
+    for_uncertain(VOX_SIMD_DISPATCH(CrossPlanes)(block, count, out), block, count,
+                  [&out](std::size_t i, const Vec3d& from, const Vec3d& a, const Vec3d& b, const Vec3d& c,
+                         const Vec3d& to) { out.t[i] = exact_crossing(from, to, a, b, c); });
 }
 
 std::uint64_t weigh_closest(const PointBlock& block, std::size_t count, AccurateWeights& out) {

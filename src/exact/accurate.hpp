@@ -24,4 +24,13 @@ void weigh_accurately(const PointBlock& block, std::size_t count, bool clamped, 
 // thin, too small or too far away for this: its weights are unspecified.
 std::uint64_t weigh_closest(const PointBlock& block, std::size_t count, AccurateWeights& out);
 
+struct Crossings {
+    alignas(64) double t[point_block];
+};
+
+// Where the segment from point to corner 3 crosses the plane of corners 0, 1 and 2, from 0 at its beginning
+// to 1 at its end: the double nearest to the true place, always. The ends are on opposite sides of the plane,
+// or one of them on it.
+void cross_planes(const PointBlock& block, std::size_t count, Crossings& out);
+
 } // namespace vox

@@ -1,7 +1,7 @@
-// Numbers of twice the digits of a double, as unevaluated sums of two (T. J. Dekker, A floating-point technique
-// for extending the available precision, Numerische Mathematik 18, 1971). Included once for each SIMD target,
-// after hwy/highway.h. A product is split or, where there are such instructions, fused, which gives the same
-// bits, as both are exact.
+// Numbers of twice the digits of a double, as unevaluated sums of two (T. J. Dekker, A floating-point
+// technique for extending the available precision, Numerische Mathematik 18, 1971). Included once for each
+// SIMD target, after hwy/highway.h. A product is split or, where there are such instructions, fused, which
+// gives the same bits, as both are exact.
 #if defined(VOX_EXACT_DOUBLE_DOUBLE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef VOX_EXACT_DOUBLE_DOUBLE_INL
 #undef VOX_EXACT_DOUBLE_DOUBLE_INL
@@ -47,7 +47,8 @@ HWY_INLINE Twofold ExactProduct(WideDouble a, WideDouble b) {
     const WideDouble of_a = hn::Mul(splitter, a), of_b = hn::Mul(splitter, b);
     const WideDouble a1 = hn::Sub(of_a, hn::Sub(of_a, a)), a2 = hn::Sub(a, a1);
     const WideDouble b1 = hn::Sub(of_b, hn::Sub(of_b, b)), b2 = hn::Sub(b, b1);
-    const WideDouble rest = hn::Add(hn::Add(hn::Sub(hn::Mul(a1, b1), product), hn::Mul(a1, b2)), hn::Mul(a2, b1));
+    const WideDouble rest =
+        hn::Add(hn::Add(hn::Sub(hn::Mul(a1, b1), product), hn::Mul(a1, b2)), hn::Mul(a2, b1));
     return {product, hn::Add(rest, hn::Mul(a2, b2))};
 #endif
 }
@@ -75,12 +76,15 @@ struct TwofoldPoint {
     Twofold x, y, z;
 };
 
-HWY_INLINE Twofold Dot(const TwofoldPoint& a, const TwofoldPoint& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+HWY_INLINE Twofold Dot(const TwofoldPoint& a, const TwofoldPoint& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 HWY_INLINE TwofoldPoint Cross(const TwofoldPoint& a, const TwofoldPoint& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 HWY_INLINE TwofoldPoint Between(const WideDouble (&from)[3], const WideDouble (&to)[3]) {
-    return {ExactDifference(to[0], from[0]), ExactDifference(to[1], from[1]), ExactDifference(to[2], from[2])};
+    return {ExactDifference(to[0], from[0]), ExactDifference(to[1], from[1]),
+            ExactDifference(to[2], from[2])};
 }
 
 #endif

@@ -265,6 +265,12 @@ std::array<double, 4> exact_weights(const Vec3d& p, const Vec3d& a, const Vec3d&
             rounded_quotient(exact_volume(q[0], q[1], q[2], q[4]), total)};
 }
 
+double exact_crossing(const Vec3d& from, const Vec3d& to, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+    const auto q = in_units(std::array{a, b, c, from, to});
+    const Integer before = exact_volume(q[0], q[1], q[2], q[3]);
+    return rounded_quotient(before, before - exact_volume(q[0], q[1], q[2], q[4]));
+}
+
 std::array<double, 4> barycentric(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c,
                                   const Vec3d& d) {
     const std::array<BoundedVolume, 4> bounded = corner_volumes(p, a, b, c, d);

@@ -75,6 +75,9 @@ public:
                   Array<vox_ray_hit>& hits) const;
     // True if a tetrahedron with a volume is on the ray.
     bool blocks(const Vec3d& from, const Vec3d& to, QueryMeshes which) const noexcept;
+    // The pieces of segments in canonical order; `memory` is for temporary use.
+    void tracks(std::span<const Vec3d> from, std::span<const Vec3d> to, QueryMeshes which,
+                std::pmr::memory_resource* memory, HitList<vox_track_piece>& pieces) const;
 
 private:
     struct Mesh {
@@ -104,6 +107,7 @@ private:
     };
     class Batch;
     class Weigher;
+    class Tracker;
     using FacetKey = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>; // mesh in meshes_, tet, facet
     struct ClosestFacet;
 

@@ -25,7 +25,9 @@ RationalPoint between(const Vec3d& from, const Vec3d& to) {
 RationalPoint cross(const RationalPoint& a, const RationalPoint& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-Rational dot(const RationalPoint& a, const RationalPoint& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Rational dot(const RationalPoint& a, const RationalPoint& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
 std::array<Rational, 4> true_weights(const Vec3d& p, const Vec3d (&corner)[4]) {
     const auto volume = [](const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
@@ -33,7 +35,8 @@ std::array<Rational, 4> true_weights(const Vec3d& p, const Vec3d (&corner)[4]) {
     };
     const auto& [a, b, c, d] = corner;
     const Rational all = volume(a, b, c, d);
-    return {volume(p, b, c, d) / all, volume(a, p, c, d) / all, volume(a, b, p, d) / all, volume(a, b, c, p) / all};
+    return {volume(p, b, c, d) / all, volume(a, p, c, d) / all, volume(a, b, p, d) / all,
+            volume(a, b, c, p) / all};
 }
 
 // The weights of the point of a triangle of non-zero area that is closest to p.
@@ -52,7 +55,8 @@ std::array<Rational, 3> true_closest(const Vec3d& p, const Vec3d (&corner)[3]) {
         Rational along = dot(to, edge) / dot(edge, edge);
         if (along.sign() < 0) along = 0.0;
         if (Rational(1) < along) along = 1.0;
-        const RationalPoint rest = {to[0] - along * edge[0], to[1] - along * edge[1], to[2] - along * edge[2]};
+        const RationalPoint rest = {to[0] - along * edge[0], to[1] - along * edge[1],
+                                    to[2] - along * edge[2]};
         const Rational squared = dot(rest, rest);
         if (nearest.sign() >= 0 && !(squared < nearest)) continue;
         nearest = squared;
@@ -66,8 +70,8 @@ std::array<Rational, 3> true_closest(const Vec3d& p, const Vec3d (&corner)[3]) {
 // As promised: rounded once, or off by 2^-58 more.
 void check_weight(double weight, const Rational& wanted, double scale = 1) {
     const double error = std::abs((Rational(weight) - wanted).rounded());
-    ck_assert_msg(error <= std::abs(weight) * 0x1p-53 * (1 + 0x1p-20) + scale * 0x1p-58, "%.17g is off by %g", weight,
-                  error);
+    ck_assert_msg(error <= std::abs(weight) * 0x1p-53 * (1 + 0x1p-20) + scale * 0x1p-58, "%.17g is off by %g",
+                  weight, error);
 }
 
 class OwnLocator {
@@ -114,8 +118,8 @@ bool is_thick(const Vec3d (&corner)[3], double squared_distance) {
     return area > 0x1p-38 * longest * longest && area > 1e-200 && area > 0x1p-78 * longest * squared_distance;
 }
 
-void check_outside(const vox_location& found, const vox_location& beyond, const Vec3d& p, const QueryDefinition& mesh,
-                   const std::pair<double, QueryDefinition::Facet>& closest) {
+void check_outside(const vox_location& found, const vox_location& beyond, const Vec3d& p,
+                   const QueryDefinition& mesh, const std::pair<double, QueryDefinition::Facet>& closest) {
     const auto [tet, facet] = closest.second;
     ck_assert_int_eq(found.state, VOX_LOCATION_OUTSIDE);
     ck_assert_uint_eq(found.tet, tet);
@@ -129,7 +133,8 @@ void check_outside(const vox_location& found, const vox_location& beyond, const 
         const auto wanted = true_closest(p, triangle);
         for (std::size_t n = 0; n < 3; ++n) check_weight(found.weights[c[n]], wanted[n]);
     }
-    const Vec3d corner[4] = {mesh.corner(tet, 0), mesh.corner(tet, 1), mesh.corner(tet, 2), mesh.corner(tet, 3)};
+    const Vec3d corner[4] = {mesh.corner(tet, 0), mesh.corner(tet, 1), mesh.corner(tet, 2),
+                             mesh.corner(tet, 3)};
     std::uint64_t exact = 0;
     if (orientation(corner[0], corner[1], corner[2], corner[3], exact) == 0) {
         ck_assert_mem_eq(beyond.weights, found.weights, sizeof found.weights);
@@ -141,7 +146,8 @@ void check_outside(const vox_location& found, const vox_location& beyond, const 
     for (std::size_t n = 0; n < 4; ++n) check_weight(beyond.weights[n], wanted[n], largest);
 }
 
-void check_locations(const std::vector<QueryDefinition>& meshes, const std::vector<Vec3d>& points, Random& random) {
+void check_locations(const std::vector<QueryDefinition>& meshes, const std::vector<Vec3d>& points,
+                     Random& random) {
     std::vector<vox_body> ids;
     const OwnLocator locator = locator_of(meshes, ids);
     const std::vector<vox_location> found = locate_all(locator, points),
@@ -172,8 +178,8 @@ void check_locations(const std::vector<QueryDefinition>& meshes, const std::vect
         ck_assert(found[i].distance == 0);
         ck_assert_mem_eq(&found[i], &beyond[i], sizeof found[i]);
         const QueryDefinition& mesh = meshes[inside];
-        const auto wanted = true_weights(p, {mesh.corner(tet, 0), mesh.corner(tet, 1), mesh.corner(tet, 2),
-                                             mesh.corner(tet, 3)});
+        const auto wanted = true_weights(
+            p, {mesh.corner(tet, 0), mesh.corner(tet, 1), mesh.corner(tet, 2), mesh.corner(tet, 3)});
         for (std::size_t n = 0; n < 4; ++n) {
             check_weight(found[i].weights[n], wanted[n]);
             ck_assert(found[i].weights[n] >= 0 && !std::signbit(found[i].weights[n]));
@@ -183,7 +189,8 @@ void check_locations(const std::vector<QueryDefinition>& meshes, const std::vect
     std::vector<std::uint32_t> order = permutation(random, points.size());
     std::vector<Vec3d> others;
     for (const std::uint32_t i : order) others.push_back(points[i]);
-    for (std::size_t begin = 0, size = 1; begin < others.size(); begin += size, size = 1 + random.below(200)) {
+    for (std::size_t begin = 0, size = 1; begin < others.size();
+         begin += size, size = 1 + random.below(200)) {
         size = std::min(size, others.size() - begin);
         const auto first = others.begin() + std::ptrdiff_t(begin);
         const std::vector<vox_location> some = locate_all(locator, {first, first + std::ptrdiff_t(size)});
@@ -226,7 +233,8 @@ START_TEST(by_definition) {
     Random random{1};
     const auto count = std::size_t(volume_from("VOX_LOCATIONS", 1500));
     const QueryDefinition cubes = definition_of(kuhn_block(4, 3, 3, {0.5, 0.5, 0.5}, 0.5));
-    const QueryDefinition near = definition_of(kuhn_block(2, 2, 2, {2.5, 0.5, 0.5}, 0.5)); // they share a side
+    const QueryDefinition near =
+        definition_of(kuhn_block(2, 2, 2, {2.5, 0.5, 0.5}, 0.5)); // they share a side
     const QueryDefinition over = definition_of(kuhn_block(2, 2, 2, {1.25, 1, 1}, 0.5));
     check_locations({cubes}, places_in(cubes, random, count), random);
     check_locations({cubes, near, over}, places_in(near, random, count), random);
@@ -253,7 +261,8 @@ START_TEST(linear_fields) {
     const QueryDefinition round = definition_of(mesh);
     std::vector<vox_body> ids;
     const OwnLocator locator = locator_of({round}, ids);
-    const std::vector<Vec3d> points = places_in(round, random, std::size_t(volume_from("VOX_LOCATIONS", 1500)) * 20);
+    const std::vector<Vec3d> points =
+        places_in(round, random, std::size_t(volume_from("VOX_LOCATIONS", 1500)) * 20);
     const std::vector<vox_location> all = locate_all(locator, points, VOX_QUERY_EXTRAPOLATE);
     for (std::size_t i = 0; i < points.size(); ++i) {
         const double at[3] = {points[i].x, points[i].y, points[i].z};
@@ -261,7 +270,9 @@ START_TEST(linear_fields) {
             double sum = 0, largest = 0;
             for (std::size_t c = 0; c < 4; ++c) {
                 const Vec3d& corner = round.corner(all[i].tet, c);
-                const double term = all[i].weights[c] * (axis == 0 ? corner.x : axis == 1 ? corner.y : corner.z);
+                const double term = all[i].weights[c] * (axis == 0   ? corner.x
+                                                         : axis == 1 ? corner.y
+                                                                     : corner.z);
                 sum += term;
                 largest = std::max(largest, std::abs(term));
             }
@@ -291,7 +302,8 @@ START_TEST(bounds_and_errors) {
     desc = query_of(1ull << 40, VOX_NULL_BODY);
     ck_ok(vox_locator_locate(locator.get(), &at, &desc, found.data()));
     for (const vox_location& location : found) ck_assert_mem_eq(&location, &none, sizeof none);
-    ck_fails(vox_locator_locate(locator.get(), &at, nullptr, nullptr), VOX_ERROR_INVALID_ARGUMENT, "out_locations");
+    ck_fails(vox_locator_locate(locator.get(), &at, nullptr, nullptr), VOX_ERROR_INVALID_ARGUMENT,
+             "out_locations");
     desc.max_distance = -1;
     ck_fails(vox_locator_locate(locator.get(), &at, &desc, found.data()), VOX_ERROR_INVALID_ARGUMENT, "-1");
     const vox_positions nothing = vox_double_positions(nullptr, 0);
@@ -301,4 +313,6 @@ END_TEST
 
 } // namespace
 
-SUITE(locations) { tcase_add_each(add_case(suite, "locations"), by_definition, linear_fields, bounds_and_errors); }
+SUITE(locations) {
+    tcase_add_each(add_case(suite, "locations"), by_definition, linear_fields, bounds_and_errors);
+}

@@ -993,6 +993,26 @@ namespace Voxtet
         public Double3 weights;
     }
 
+    /// <summary>The part of a segment that lies in one tetrahedron.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 40)]
+    public struct TrackPiece
+    {
+        /// <summary>index of the segment</summary>
+        public uint segment;
+        public uint body;
+        public uint tet;
+        /// <summary>where the segment enters the tetrahedron, the lowest of several; VOX_NONE if the piece begins
+        /// elsewhere</summary>
+        public uint facet_in;
+        /// <summary>where it leaves; VOX_NONE if the piece ends elsewhere</summary>
+        public uint facet_out;
+        /// <summary>0</summary>
+        public uint reserved;
+        /// <summary>the doubles nearest to the true ones</summary>
+        public double t_in;
+        public double t_out;
+    }
+
     /// <summary>A point of a cost curve.</summary>
     [StructLayout(LayoutKind.Sequential, Size = 16)]
     public struct CostSample
@@ -2066,6 +2086,12 @@ namespace Voxtet
         internal static extern Result vox_locator_test_rays(IntPtr locator, Positions* from, Positions* to, QueryDesc*
             desc, byte* out_blocked);
 
+        /// <summary>Finds the tetrahedra that segments pass through, sorted by (segment, body, t_in, t_out,
+        /// tet).</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_locator_find_tracks(IntPtr locator, Positions* from, Positions* to, QueryDesc*
+            desc, TrackPiece* pieces, ulong capacity, ulong* out_count);
+
         /// <summary>Suggests the cell size with the least cost for these meshes as they are now.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_suggest_cell_size(CellSizeDesc* desc, MeshDesc* meshes, ulong mesh_count,
@@ -2660,6 +2686,21 @@ namespace Voxtet
             entries.Add(Entry("vox_ray_hit.face", (byte*)&s.face - begin, 20, 20));
             entries.Add(Entry("vox_ray_hit.t", (byte*)&s.t - begin, 32, 32));
             entries.Add(Entry("vox_ray_hit.weights", (byte*)&s.weights - begin, 40, 40));
+        }
+
+        static void AddTrackPiece(List<LayoutEntry> entries)
+        {
+            TrackPiece s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_track_piece", sizeof(TrackPiece), 40, 40));
+            entries.Add(Entry("vox_track_piece.segment", (byte*)&s.segment - begin, 0, 0));
+            entries.Add(Entry("vox_track_piece.body", (byte*)&s.body - begin, 4, 4));
+            entries.Add(Entry("vox_track_piece.tet", (byte*)&s.tet - begin, 8, 8));
+            entries.Add(Entry("vox_track_piece.facet_in", (byte*)&s.facet_in - begin, 12, 12));
+            entries.Add(Entry("vox_track_piece.facet_out", (byte*)&s.facet_out - begin, 16, 16));
+            entries.Add(Entry("vox_track_piece.reserved", (byte*)&s.reserved - begin, 20, 20));
+            entries.Add(Entry("vox_track_piece.t_in", (byte*)&s.t_in - begin, 24, 24));
+            entries.Add(Entry("vox_track_piece.t_out", (byte*)&s.t_out - begin, 32, 32));
         }
 
         static void AddCostSample(List<LayoutEntry> entries)
@@ -3258,6 +3299,7 @@ namespace Voxtet
             AddClosestHit(entries);
             AddBoxHit(entries);
             AddRayHit(entries);
+            AddTrackPiece(entries);
             AddCostSample(entries);
             AddCostTerm(entries);
             AddCellSizeRule(entries);

@@ -649,6 +649,25 @@ dtypes["vox_ray_hit"] = dtype({
     "itemsize": 64})
 
 
+class vox_track_piece(Structure):
+    _fields_ = [
+        ("segment", c_uint32),
+        ("body", c_uint32),
+        ("tet", c_uint32),
+        ("facet_in", c_uint32),
+        ("facet_out", c_uint32),
+        ("reserved", c_uint32),
+        ("t_in", c_double),
+        ("t_out", c_double),
+    ]
+
+dtypes["vox_track_piece"] = dtype({
+    "names": ["segment", "body", "tet", "facet_in", "facet_out", "reserved", "t_in", "t_out"],
+    "formats": ["u4", "u4", "u4", "u4", "u4", "u4", "f8", "f8"],
+    "offsets": [0, 4, 8, 12, 16, 20, 24, 32],
+    "itemsize": 40})
+
+
 class vox_cost_sample(Structure):
     _fields_ = [
         ("cell_size", c_double),
@@ -1290,6 +1309,8 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
             POINTER(vox_query_desc), c_void_p, c_uint64, POINTER(c_uint64))),
         "vox_locator_test_rays": (vox_result, (c_void_p, POINTER(vox_positions), POINTER(vox_positions),
             POINTER(vox_query_desc), c_void_p)),
+        "vox_locator_find_tracks": (vox_result, (c_void_p, POINTER(vox_positions), POINTER(vox_positions),
+            POINTER(vox_query_desc), c_void_p, c_uint64, POINTER(c_uint64))),
     },
     "vox_cell_size": {
         "vox_suggest_cell_size": (vox_result, (POINTER(vox_cell_size_desc), c_void_p, c_uint64,

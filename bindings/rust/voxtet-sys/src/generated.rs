@@ -863,6 +863,25 @@ pub struct vox_ray_hit {
     pub weights: [f64; 3],
 }
 
+/// The part of a segment that lies in one tetrahedron. A segment is a closed one, as a ray is.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_track_piece {
+    /// index of the segment
+    pub segment: u32,
+    pub body: vox_body,
+    pub tet: u32,
+    /// where the segment enters the tetrahedron, the lowest of several; VOX_NONE if the piece begins elsewhere
+    pub facet_in: u32,
+    /// where it leaves; VOX_NONE if the piece ends elsewhere
+    pub facet_out: u32,
+    /// 0
+    pub reserved: u32,
+    /// the doubles nearest to the true ones
+    pub t_in: f64,
+    pub t_out: f64,
+}
+
 /// A point of a cost curve.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -1967,6 +1986,21 @@ extern "C" {
         desc: *const vox_query_desc,
         out_blocked: *mut u8,
     ) -> vox_result;
+    /// Finds the tetrahedra that segments pass through, sorted by (segment, body, t_in, t_out, tet). By the rule of
+    /// vox_contact, every stretch of a segment belongs to each tetrahedron of a body that has it in its interior or, if
+    /// there is none, to the lowest that has it in a facet or an edge. So the pieces in a body whose tetrahedra do not
+    /// overlap have no gap inside the body and do not overlap: t_out of one is t_in of the next, bit for bit. Which
+    /// tetrahedra a segment passes through is exact. A point is no piece: segments that only touch a tetrahedron, and
+    /// those without length, have none there.
+    pub fn vox_locator_find_tracks(
+        locator: *const vox_locator,
+        from: *const vox_positions,
+        to: *const vox_positions,
+        desc: *const vox_query_desc,
+        pieces: *mut vox_track_piece,
+        capacity: u64,
+        out_count: *mut u64,
+    ) -> vox_result;
 }
 
 #[rustfmt::skip]
@@ -2394,6 +2428,8 @@ layouts! {
     vox_box_hit: size [12, 12], alignment [4, 4], { r#box: [0, 0], body: [4, 4], tet: [8, 8] }
     vox_ray_hit: size [64, 64], alignment [8, 8], { ray: [0, 0], body: [4, 4], tet: [8, 8], facet: [12, 12],
         side: [16, 16], face: [20, 20], t: [32, 32], weights: [40, 40] }
+    vox_track_piece: size [40, 40], alignment [8, 8], { segment: [0, 0], body: [4, 4], tet: [8, 8], facet_in: [12, 12],
+        facet_out: [16, 16], reserved: [20, 20], t_in: [24, 24], t_out: [32, 32] }
     vox_cost_sample: size [16, 16], alignment [8, 8], { cell_size: [0, 0], cost: [8, 8] }
     vox_cost_term: size [24, 24], alignment [8, 8], { name: [0, 0], count: [8, 8], cost: [16, 16] }
     vox_cell_size_rule: size [24, 24], alignment [8, 8], { name: [0, 0], cell_size: [8, 8], cost: [16, 16] }

@@ -1,0 +1,220 @@
+// Queries for the tetrahedra that segments pass through. Which of the four planes of a tetrahedron a segment
+// enters or leaves by, and in which order, is decided exactly; where it does so is rounded once, so that it is
+// the same for all tetrahedra that meet there, and in the same order.
+#include "base/array.hpp"
+#include "base/vectors.hpp"
+#include "exact/accurate.hpp"
+#include "exact/predicates.hpp"
+#include "query/entry_bound.hpp"
+#include "query/facets.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <tuple>
+
+namespace vox {
+
+// The part of a segment in a closed tetrahedron.
+struct TrackChord {
+    bool any = false;    // it has a length
+    bool within = false; // it lies in a facet or an edge
+    std::uint32_t facet_in = VOX_NONE, facet_out = VOX_NONE;
+};
+
+namespace {
+
+// The corners other than i and j, in the order that makes i, j and them an even permutation.
+constexpr std::uint8_t other_corners[4][4][2] = {{{}, {2, 3}, {3, 1}, {1, 2}},
+                                                 {{3, 2}, {}, {0, 3}, {2, 0}},
+                                                 {{1, 3}, {3, 0}, {}, {0, 1}},
+                                                 {{2, 1}, {0, 2}, {1, 0}, {}}};
+
+// Let h_i be the volume with P in place of corner i, which is 0 where the segment P(t) crosses plane i, at t_i.
+// The order of t_i and t_j follows from the sign of h_i(0) h_j(1) - h_j(0) h_i(1), which is the tetrahedron's
+// volume times the volume of the segment's ends and the two other corners, in an even permutation.
+TrackChord find_chord(const Vec3d& from, const Vec3d& to, const Vec3d* const (&corner)[4]) {
+    std::uint64_t exact_tests = 0;
+    const auto sign_of = [&exact_tests](const BoundedVolume& volume, const Vec3d& a, const Vec3d& b, const Vec3d& c,
+                                        const Vec3d& d) {
+        if (volume.certain()) return volume.volume > 0 ? 1 : -1;
+        return uncertain_orientation(volume, a, b, c, d, exact_tests);
+    };
+    const Vec3d &a = *corner[0], &b = *corner[1], &c = *corner[2], &d = *corner[3];
+    const auto volumes_from = corner_volumes(from, a, b, c, d), volumes_to = corner_volumes(to, a, b, c, d);
+    const int volume = orientation(a, b, c, d, exact_tests);
+    if (volume == 0) return {};
+    TrackChord chord{.any = true};
+    std::uint32_t enters = 0, leaves = 0; // a bit for each facet
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        const auto side = [&](const BoundedVolume& of, const Vec3d& p) {
+            return volume * sign_of(of, i == 0 ? p : a, i == 1 ? p : b, i == 2 ? p : c, i == 3 ? p : d);
+        };
+        const int before = side(volumes_from[i], from), after = side(volumes_to[i], to);
+        if (before <= 0 && after <= 0) {
+            if (before < 0 || after < 0) return {};
+            chord.within = true;
+        }
+        enters |= std::uint32_t{before < 0} << i;
+        leaves |= std::uint32_t{after < 0} << i;
+    }
+    // -1 if t_i is greater than t_j and both are entered, or if t_i is less and it is entered and j left.
+    const auto turn = [&](std::uint32_t i, std::uint32_t j) {
+        const std::uint8_t* const others = other_corners[i][j];
+        return volume * orientation(from, to, *corner[others[0]], *corner[others[1]], exact_tests);
+    };
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        if (enters >> i & 1 && (chord.facet_in == VOX_NONE || turn(i, chord.facet_in) < 0)) chord.facet_in = i;
+        if (leaves >> i & 1 && (chord.facet_out == VOX_NONE || turn(i, chord.facet_out) > 0)) chord.facet_out = i;
+    }
+    chord.any = chord.facet_in == VOX_NONE || chord.facet_out == VOX_NONE || turn(chord.facet_in, chord.facet_out) < 0;
+    return chord;
+}
+
+} // namespace
+
+// The pieces of one segment at a time.
+class Queries::Tracker {
+public:
+    Tracker(const Queries& queries, QueryMeshes which, std::pmr::memory_resource* memory)
+        : queries_(queries), which_(which), pieces_(memory), settled_(memory), borders_(memory), active_(memory) {}
+
+    void find(std::uint32_t segment, const Vec3d& from, const Vec3d& to, HitList<vox_track_piece>& out);
+
+private:
+    struct Piece {
+        std::uint32_t mesh, tet; // the mesh in meshes_
+        std::uint32_t leaf, place;
+        TrackChord chord;
+        double t_in = 0, t_out = 1;
+
+        auto order() const noexcept { return std::tie(mesh, t_in, t_out, tet); }
+    };
+
+    void find_in(std::uint32_t leaf, const EntryBound& bound);
+    void place_ends();
+    void settle(std::span<const Piece> pieces);
+
+    const Queries& queries_;
+    const QueryMeshes which_;
+    Vec3d from_{}, to_{};
+    Array<Piece> pieces_, settled_;
+    Array<double> borders_;       // of settle()
+    Array<const Piece*> active_;  // likewise
+    PointBlock block_;
+};
+
+void Queries::Tracker::find(std::uint32_t segment, const Vec3d& from, const Vec3d& to, HitList<vox_track_piece>& out) {
+    if (from.x == to.x && from.y == to.y && from.z == to.z) return;
+    from_ = from;
+    to_ = to;
+    pieces_.clear();
+    const EntryBound bound(from, to);
+    queries_.tree_.visit_accepted([&bound](const Box3f& box) { return bound(box) <= 1; },
+                                  [&](std::uint32_t leaf) { find_in(leaf, bound); });
+    place_ends();
+    const auto before = [](const Piece& x, const Piece& y) { return x.order() < y.order(); };
+    if (!std::is_sorted(pieces_.begin(), pieces_.end(), before)) std::sort(pieces_.begin(), pieces_.end(), before);
+    const bool settled = std::none_of(pieces_.begin(), pieces_.end(), [](const Piece& p) { return p.chord.within; });
+    if (!settled) {
+        settled_.clear();
+        for (std::size_t begin = 0, end; begin < pieces_.size(); begin = end) {
+            for (end = begin + 1; end < pieces_.size() && pieces_[end].mesh == pieces_[begin].mesh;) ++end;
+            settle(std::span(pieces_).subspan(begin, end - begin));
+        }
+        std::sort(settled_.begin(), settled_.end(), before);
+    }
+    for (const Piece& p : settled ? pieces_ : settled_)
+        if (vox_track_piece* const piece = out.add())
+            *piece = {segment, queries_.meshes_[p.mesh].id, p.tet, p.chord.facet_in, p.chord.facet_out, 0, p.t_in, p.t_out};
+}
+
+void Queries::Tracker::find_in(std::uint32_t leaf, const EntryBound& bound) {
+    if (!queries_.wants(queries_.leaves_[leaf], which_)) return;
+    const LeafTets tets = queries_.tets_of(queries_.leaves_[leaf]);
+    for (std::uint32_t i = 0; i < tets.size(); ++i) {
+        if (!(bound(tets.box(i)) <= 1)) continue;
+        const Vec3d* const corner[4] = {&tets.corner(i, 0), &tets.corner(i, 1), &tets.corner(i, 2), &tets.corner(i, 3)};
+        const TrackChord chord = find_chord(from_, to_, corner);
+        if (chord.any) pieces_.push_back({queries_.leaves_[leaf].mesh, tets.index(i), leaf, i, chord});
+    }
+}
+
+// Computes where pieces begin and end.
+void Queries::Tracker::place_ends() {
+    double* ends[point_block];
+    Crossings crossings;
+    std::size_t count = 0;
+    const auto flush = [&] {
+        if (count == 0) return;
+        fill_last_register(block_, count);
+        cross_planes(block_, count, crossings);
+        for (std::size_t i = 0; i < count; ++i) *ends[i] = crossings.t[i];
+        count = 0;
+    };
+    const auto add = [&](const LeafTets& tets, std::size_t place, std::uint32_t facet, double& end) {
+        if (facet == VOX_NONE) return;
+        set(block_.point, count, from_);
+        for (std::size_t c = 0; c < 3; ++c) set(block_.corner[c], count, tets.corner(place, facet_corners[facet][c]));
+        set(block_.corner[3], count, to_);
+        ends[count++] = &end;
+        if (count == point_block) flush();
+    };
+    for (Piece& p : pieces_) {
+        const LeafTets tets = queries_.tets_of(queries_.leaves_[p.leaf]);
+        add(tets, p.place, p.chord.facet_in, p.t_in);
+        add(tets, p.place, p.chord.facet_out, p.t_out);
+    }
+    flush();
+}
+
+// Leaves of the stretches in facets and edges those outside all interiors, each to its lowest tetrahedron: a
+// sweep along the segment, through the pieces of one mesh.
+void Queries::Tracker::settle(std::span<const Piece> pieces) {
+    borders_.clear();
+    active_.clear(); // a heap of stretches, the lowest tetrahedron on top
+    for (const Piece& p : pieces) {
+        borders_.push_back(p.t_in);
+        borders_.push_back(p.t_out);
+        if (!p.chord.within) settled_.push_back(p);
+    }
+    std::sort(borders_.begin(), borders_.end());
+    const auto higher = [](const Piece* x, const Piece* y) { return x->tet > y->tet; };
+    double inside_until = 0;
+    std::size_t next = 0, last = ~std::size_t{0}; // the last stretch in settled_
+    for (std::size_t b = 0; b + 1 < borders_.size(); ++b) {
+        const double begin = borders_[b], end = borders_[b + 1];
+        if (begin == end) continue;
+        for (; next < pieces.size() && pieces[next].t_in <= begin; ++next) {
+            if (!pieces[next].chord.within) {
+                inside_until = std::max(inside_until, pieces[next].t_out);
+                continue;
+            }
+            active_.push_back(&pieces[next]);
+            std::push_heap(active_.begin(), active_.end(), higher);
+        }
+        while (!active_.empty() && active_[0]->t_out <= begin) {
+            std::pop_heap(active_.begin(), active_.end(), higher);
+            active_.pop_back();
+        }
+        if (active_.empty() || inside_until > begin) continue;
+        const Piece& lowest = *active_[0];
+        if (last < settled_.size() && settled_[last].tet == lowest.tet && settled_[last].t_out == begin) {
+            settled_[last].t_out = end;
+        } else {
+            last = settled_.size();
+            settled_.push_back(lowest);
+            settled_[last].t_in = begin;
+            settled_[last].t_out = end;
+            if (begin != lowest.t_in) settled_[last].chord.facet_in = VOX_NONE;
+        }
+        settled_[last].chord.facet_out = end == lowest.t_out ? lowest.chord.facet_out : VOX_NONE;
+    }
+}
+
+void Queries::tracks(std::span<const Vec3d> from, std::span<const Vec3d> to, QueryMeshes which,
+                     std::pmr::memory_resource* memory, HitList<vox_track_piece>& pieces) const {
+    Tracker tracker(*this, which, memory);
+    for (std::size_t i = 0; i < from.size(); ++i) tracker.find(static_cast<std::uint32_t>(i), from[i], to[i], pieces);
+}
+
+} // namespace vox
