@@ -1,6 +1,6 @@
 // Queries for the tetrahedra that segments pass through. Which of the four planes of a tetrahedron a segment
-// enters or leaves by, and in which order, is decided exactly; where it does so is rounded once, so that it is
-// the same for all tetrahedra that meet there, and in the same order.
+// enters or leaves by, and in which order, is decided exactly; where it does so is rounded once, so that it
+// is the same for all tetrahedra that meet there, and in the same order.
 #include "base/array.hpp"
 #include "base/vectors.hpp"
 #include "exact/accurate.hpp"
@@ -29,13 +29,14 @@ constexpr std::uint8_t other_corners[4][4][2] = {{{}, {2, 3}, {3, 1}, {1, 2}},
                                                  {{1, 3}, {3, 0}, {}, {0, 1}},
                                                  {{2, 1}, {0, 2}, {1, 0}, {}}};
 
-// Let h_i be the volume with P in place of corner i, which is 0 where the segment P(t) crosses plane i, at t_i.
-// The order of t_i and t_j follows from the sign of h_i(0) h_j(1) - h_j(0) h_i(1), which is the tetrahedron's
-// volume times the volume of the segment's ends and the two other corners, in an even permutation.
+// Let h_i be the volume with P in place of corner i, which is 0 where the segment P(t) crosses plane i, at
+// t_i. The order of t_i and t_j follows from the sign of h_i(0) h_j(1) - h_j(0) h_i(1), which is the
+// tetrahedron's volume times the volume of the segment's ends and the two other corners, in an even
+// permutation.
 TrackChord find_chord(const Vec3d& from, const Vec3d& to, const Vec3d* const (&corner)[4]) {
     std::uint64_t exact_tests = 0;
-    const auto sign_of = [&exact_tests](const BoundedVolume& volume, const Vec3d& a, const Vec3d& b, const Vec3d& c,
-                                        const Vec3d& d) {
+    const auto sign_of = [&exact_tests](const BoundedVolume& volume, const Vec3d& a, const Vec3d& b,
+                                        const Vec3d& c, const Vec3d& d) {
         if (volume.certain()) return volume.volume > 0 ? 1 : -1;
         return uncertain_orientation(volume, a, b, c, d, exact_tests);
     };
@@ -63,10 +64,13 @@ TrackChord find_chord(const Vec3d& from, const Vec3d& to, const Vec3d* const (&c
         return volume * orientation(from, to, *corner[others[0]], *corner[others[1]], exact_tests);
     };
     for (std::uint32_t i = 0; i < 4; ++i) {
-        if (enters >> i & 1 && (chord.facet_in == VOX_NONE || turn(i, chord.facet_in) < 0)) chord.facet_in = i;
-        if (leaves >> i & 1 && (chord.facet_out == VOX_NONE || turn(i, chord.facet_out) > 0)) chord.facet_out = i;
+        if (enters >> i & 1 && (chord.facet_in == VOX_NONE || turn(i, chord.facet_in) < 0))
+            chord.facet_in = i;
+        if (leaves >> i & 1 && (chord.facet_out == VOX_NONE || turn(i, chord.facet_out) > 0))
+            chord.facet_out = i;
     }
-    chord.any = chord.facet_in == VOX_NONE || chord.facet_out == VOX_NONE || turn(chord.facet_in, chord.facet_out) < 0;
+    chord.any = chord.facet_in == VOX_NONE || chord.facet_out == VOX_NONE ||
+                turn(chord.facet_in, chord.facet_out) < 0;
     return chord;
 }
 
@@ -76,7 +80,8 @@ TrackChord find_chord(const Vec3d& from, const Vec3d& to, const Vec3d* const (&c
 class Queries::Tracker {
 public:
     Tracker(const Queries& queries, QueryMeshes which, std::pmr::memory_resource* memory)
-        : queries_(queries), which_(which), pieces_(memory), settled_(memory), borders_(memory), active_(memory) {}
+        : queries_(queries), which_(which), pieces_(memory), settled_(memory), borders_(memory),
+          active_(memory) {}
 
     void find(std::uint32_t segment, const Vec3d& from, const Vec3d& to, HitList<vox_track_piece>& out);
 
@@ -98,12 +103,13 @@ private:
     const QueryMeshes which_;
     Vec3d from_{}, to_{};
     Array<Piece> pieces_, settled_;
-    Array<double> borders_;       // of settle()
-    Array<const Piece*> active_;  // likewise
+    Array<double> borders_;      // of settle()
+    Array<const Piece*> active_; // likewise
     PointBlock block_;
 };
 
-void Queries::Tracker::find(std::uint32_t segment, const Vec3d& from, const Vec3d& to, HitList<vox_track_piece>& out) {
+void Queries::Tracker::find(std::uint32_t segment, const Vec3d& from, const Vec3d& to,
+                            HitList<vox_track_piece>& out) {
     if (from.x == to.x && from.y == to.y && from.z == to.z) return;
     from_ = from;
     to_ = to;
@@ -113,8 +119,10 @@ void Queries::Tracker::find(std::uint32_t segment, const Vec3d& from, const Vec3
                                   [&](std::uint32_t leaf) { find_in(leaf, bound); });
     place_ends();
     const auto before = [](const Piece& x, const Piece& y) { return x.order() < y.order(); };
-    if (!std::is_sorted(pieces_.begin(), pieces_.end(), before)) std::sort(pieces_.begin(), pieces_.end(), before);
-    const bool settled = std::none_of(pieces_.begin(), pieces_.end(), [](const Piece& p) { return p.chord.within; });
+    if (!std::is_sorted(pieces_.begin(), pieces_.end(), before))
+        std::sort(pieces_.begin(), pieces_.end(), before);
+    const bool settled =
+        std::none_of(pieces_.begin(), pieces_.end(), [](const Piece& p) { return p.chord.within; });
     if (!settled) {
         settled_.clear();
         for (std::size_t begin = 0, end; begin < pieces_.size(); begin = end) {
@@ -125,7 +133,9 @@ void Queries::Tracker::find(std::uint32_t segment, const Vec3d& from, const Vec3
     }
     for (const Piece& p : settled ? pieces_ : settled_)
         if (vox_track_piece* const piece = out.add())
-            *piece = {segment, queries_.meshes_[p.mesh].id, p.tet, p.chord.facet_in, p.chord.facet_out, 0, p.t_in, p.t_out};
+            *piece = {
+                segment, queries_.meshes_[p.mesh].id, p.tet, p.chord.facet_in, p.chord.facet_out, 0, p.t_in,
+                p.t_out};
 }
 
 void Queries::Tracker::find_in(std::uint32_t leaf, const EntryBound& bound) {
@@ -133,7 +143,8 @@ void Queries::Tracker::find_in(std::uint32_t leaf, const EntryBound& bound) {
     const LeafTets tets = queries_.tets_of(queries_.leaves_[leaf]);
     for (std::uint32_t i = 0; i < tets.size(); ++i) {
         if (!(bound(tets.box(i)) <= 1)) continue;
-        const Vec3d* const corner[4] = {&tets.corner(i, 0), &tets.corner(i, 1), &tets.corner(i, 2), &tets.corner(i, 3)};
+        const Vec3d* const corner[4] = {&tets.corner(i, 0), &tets.corner(i, 1), &tets.corner(i, 2),
+                                        &tets.corner(i, 3)};
         const TrackChord chord = find_chord(from_, to_, corner);
         if (chord.any) pieces_.push_back({queries_.leaves_[leaf].mesh, tets.index(i), leaf, i, chord});
     }
@@ -154,7 +165,8 @@ void Queries::Tracker::place_ends() {
     const auto add = [&](const LeafTets& tets, std::size_t place, std::uint32_t facet, double& end) {
         if (facet == VOX_NONE) return;
         set(block_.point, count, from_);
-        for (std::size_t c = 0; c < 3; ++c) set(block_.corner[c], count, tets.corner(place, facet_corners[facet][c]));
+        for (std::size_t c = 0; c < 3; ++c)
+            set(block_.corner[c], count, tets.corner(place, facet_corners[facet][c]));
         set(block_.corner[3], count, to_);
         ends[count++] = &end;
         if (count == point_block) flush();
@@ -214,7 +226,8 @@ void Queries::Tracker::settle(std::span<const Piece> pieces) {
 void Queries::tracks(std::span<const Vec3d> from, std::span<const Vec3d> to, QueryMeshes which,
                      std::pmr::memory_resource* memory, HitList<vox_track_piece>& pieces) const {
     Tracker tracker(*this, which, memory);
-    for (std::size_t i = 0; i < from.size(); ++i) tracker.find(static_cast<std::uint32_t>(i), from[i], to[i], pieces);
+    for (std::size_t i = 0; i < from.size(); ++i)
+        tracker.find(static_cast<std::uint32_t>(i), from[i], to[i], pieces);
 }
 
 } // namespace vox

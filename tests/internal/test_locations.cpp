@@ -1,10 +1,7 @@
 // Locations of points, by definition: every tetrahedron and every facet tried, weights by rational numbers.
 #include "base/vectors.hpp"
 #include "exact/accurate.hpp"
-#include "internal/meshes.hpp"
-#include "internal/query_definition.hpp"
-#include "internal/rational.hpp"
-#include "support/locators.h"
+#include "internal/exact_queries.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,23 +13,7 @@ using namespace vox::test;
 
 namespace {
 
-using RationalPoint = std::array<Rational, 3>;
-
-RationalPoint between(const Vec3d& from, const Vec3d& to) {
-    return {Rational(to.x) - Rational(from.x), Rational(to.y) - Rational(from.y),
-            Rational(to.z) - Rational(from.z)};
-}
-RationalPoint cross(const RationalPoint& a, const RationalPoint& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Rational dot(const RationalPoint& a, const RationalPoint& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 std::array<Rational, 4> true_weights(const Vec3d& p, const Vec3d (&corner)[4]) {
-    const auto volume = [](const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
-        return dot(cross(between(a, b), between(a, c)), between(a, d));
-    };
     const auto& [a, b, c, d] = corner;
     const Rational all = volume(a, b, c, d);
     return {volume(p, b, c, d) / all, volume(a, p, c, d) / all, volume(a, b, p, d) / all,
@@ -72,32 +53,6 @@ void check_weight(double weight, const Rational& wanted, double scale = 1) {
     const double error = std::abs((Rational(weight) - wanted).rounded());
     ck_assert_msg(error <= std::abs(weight) * 0x1p-53 * (1 + 0x1p-20) + scale * 0x1p-58, "%.17g is off by %g",
                   weight, error);
-}
-
-class OwnLocator {
-public:
-    explicit OwnLocator(vox_locator* locator) : locator_(locator) {}
-    ~OwnLocator() { vox_locator_release(locator_); }
-    OwnLocator(const OwnLocator&) = delete;
-    OwnLocator& operator=(const OwnLocator&) = delete;
-    const vox_locator* get() const { return locator_; }
-
-private:
-    vox_locator* locator_;
-};
-
-OwnLocator locator_of(const std::vector<QueryDefinition>& meshes, std::vector<vox_body>& ids) {
-    vox_grid* grid = engine_grid();
-    for (const QueryDefinition& mesh : meshes) {
-        vox_mesh_desc desc = vox_default_mesh_desc();
-        desc.positions = vox_double_positions(&mesh.positions().data()->x, mesh.positions().size());
-        desc.tets = mesh.tets().front().v;
-        desc.tet_count = mesh.tets().size();
-        ids.push_back(insert_mesh(grid, &desc));
-    }
-    vox_locator* locator = take_locator(grid);
-    vox_grid_destroy(grid);
-    return OwnLocator(locator);
 }
 
 std::vector<vox_location> locate_all(const OwnLocator& locator, const std::vector<Vec3d>& points,
@@ -197,10 +152,6 @@ void check_locations(const std::vector<QueryDefinition>& meshes, const std::vect
         for (std::size_t i = 0; i < size; ++i)
             ck_assert_mem_eq(&some[i], &found[order[begin + i]], sizeof some[i]);
     }
-}
-
-QueryDefinition definition_of(const Mesh& mesh) {
-    return {{mesh.positions.begin(), mesh.positions.end()}, mesh.tets};
 }
 
 // On vertices, edges and facets, in tetrahedra, and around the mesh.
