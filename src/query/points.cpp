@@ -85,6 +85,16 @@ void Queries::for_found(std::span<const Vec3d> points, QueryMeshes which, std::p
     }
 }
 
+void Queries::find_all(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
+                       Array<PointHit>& hits) const {
+    for_found(points, which, memory, [&](std::size_t point, std::span<const PointHit> found) {
+        for (PointHit hit : found) {
+            hit.point = static_cast<std::uint32_t>(point);
+            hits.push_back(hit);
+        }
+    });
+}
+
 void Queries::points(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
                      HitList<vox_point_hit>& hits) const {
     Weigher weigher(Weigher::Of::inside);

@@ -12,6 +12,8 @@
 
 #include <vox/vox_query.h>
 
+#include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -32,6 +34,24 @@ struct QueryBody {
 struct QueryMeshes {
     std::uint64_t mask;
     vox_body excluded;
+};
+
+// An answer that any thread may find.
+class LazyAnswer {
+public:
+    LazyAnswer() = default;
+    LazyAnswer(const LazyAnswer& other) noexcept : state_(other.state_.load()) {}
+    LazyAnswer& operator=(const LazyAnswer& other) noexcept { return state_ = other.state_.load(), *this; }
+
+    template <class Find>
+    bool get(bool may_find, Find&& find) {
+        std::uint8_t state = state_.load(std::memory_order_relaxed);
+        if (state == 0 && may_find) state_.store(state = find() ? 2 : 1, std::memory_order_relaxed);
+        return state == 2;
+    }
+
+private:
+    std::atomic<std::uint8_t> state_ = 0; // 1: no, 2: yes
 };
 
 // A caller's list: the first `capacity` hits are kept, all are counted.
@@ -89,6 +109,7 @@ private:
         bool rounded;                                    // floats_ are not exact
         Box box = empty_box;
         TileSize tile_size{};
+        mutable LazyAnswer walkable{}; // see is_walkable()
     };
     // A tile of a mesh, that is, up to 64 tetrahedra that are close together.
     struct Leaf {
@@ -113,6 +134,9 @@ private:
 
     void copy_positions(std::span<const QueryBody> bodies, std::size_t begin, std::size_t end) noexcept;
     void make_boxes(std::uint32_t leaf) noexcept;
+    // True if the two tetrahedra at each facet are certainly on opposite sides, so that from one to the next
+    // on a segment there is only one way, forwards. Looked up if it is known, or `may_find`.
+    bool is_walkable(const Mesh& mesh, bool may_find, std::pmr::memory_resource* memory) const;
     static bool wants(const Mesh& mesh, QueryMeshes which) noexcept {
         return (mesh.category & which.mask) != 0 && mesh.id != which.excluded;
     }
@@ -127,6 +151,9 @@ private:
     template <class Visit>
     void for_found(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
                    Visit&& visit) const;
+    // Appends all of them.
+    void find_all(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
+                  Array<PointHit>& hits) const;
     static void sort_found(Array<PointHit>& found, std::size_t points);
     // Sets the signs of distances and the counts of meshes that contain the points in `hits`.
     void count_inside(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
@@ -172,7 +199,14 @@ public:
     // The index in its mesh.
     std::uint32_t index(std::size_t i) const noexcept { return tets_.tiles.tets[tile_.first_tet + i]; }
     // Bit f is set when facet f is on the surface.
-    unsigned facets(std::size_t i) const noexcept { return tets_.facets[tile_.first_tet + i]; }
+    unsigned facets(std::size_t i) const noexcept { return tets_.facets[tile_.first_tet + i] & 15u; }
+    // See QueryTets.
+    bool is_turned(std::size_t i, std::size_t facet) const noexcept {
+        return tets_.facets[tile_.first_tet + i] >> (4 + facet) & 1;
+    }
+    const std::array<std::uint32_t, 4>& links(std::size_t i) const noexcept {
+        return tets_.links[tile_.first_tet + i];
+    }
     std::uint32_t vertex(std::size_t i, std::size_t corner) const noexcept {
         return tets_.tiles.vertices[tile_.first_vertex + corners_[corner * tile_size + i]];
     }

@@ -1,33 +1,16 @@
 // Queries for the tetrahedra that segments pass through. Which of the four planes of a tetrahedron a segment
 // enters or leaves by, and in which order, is decided exactly; where it does so is rounded once, so that it
 // is the same for all tetrahedra that meet there, and in the same order.
-#include "base/array.hpp"
+#include "query/tracker.hpp"
+
 #include "base/vectors.hpp"
-#include "exact/accurate.hpp"
-#include "exact/predicates.hpp"
-#include "query/entry_bound.hpp"
-#include "query/facets.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <tuple>
 
 namespace vox {
 
-// The part of a segment in a closed tetrahedron.
-struct TrackChord {
-    bool any = false;    // it has a length
-    bool within = false; // it lies in a facet or an edge
-    std::uint32_t facet_in = VOX_NONE, facet_out = VOX_NONE;
-};
-
 namespace {
-
-// The corners other than i and j, in the order that makes i, j and them an even permutation.
-constexpr std::uint8_t other_corners[4][4][2] = {{{}, {2, 3}, {3, 1}, {1, 2}},
-                                                 {{3, 2}, {}, {0, 3}, {2, 0}},
-                                                 {{1, 3}, {3, 0}, {}, {0, 1}},
-                                                 {{2, 1}, {0, 2}, {1, 0}, {}}};
 
 // Let h_i be the volume with P in place of corner i, which is 0 where the segment P(t) crosses plane i, at
 // t_i. The order of t_i and t_j follows from the sign of h_i(0) h_j(1) - h_j(0) h_i(1), which is the
@@ -76,47 +59,18 @@ TrackChord find_chord(const Vec3d& from, const Vec3d& to, const Vec3d* const (&c
 
 } // namespace
 
-// The pieces of one segment at a time.
-class Queries::Tracker {
-public:
-    Tracker(const Queries& queries, QueryMeshes which, std::pmr::memory_resource* memory)
-        : queries_(queries), which_(which), pieces_(memory), settled_(memory), borders_(memory),
-          active_(memory) {}
-
-    void find(std::uint32_t segment, const Vec3d& from, const Vec3d& to, HitList<vox_track_piece>& out);
-
-private:
-    struct Piece {
-        std::uint32_t mesh, tet; // the mesh in meshes_
-        std::uint32_t leaf, place;
-        TrackChord chord;
-        double t_in = 0, t_out = 1;
-
-        auto order() const noexcept { return std::tie(mesh, t_in, t_out, tet); }
-    };
-
-    void find_in(std::uint32_t leaf, const EntryBound& bound);
-    void place_ends();
-    void settle(std::span<const Piece> pieces);
-
-    const Queries& queries_;
-    const QueryMeshes which_;
-    Vec3d from_{}, to_{};
-    Array<Piece> pieces_, settled_;
-    Array<double> borders_;      // of settle()
-    Array<const Piece*> active_; // likewise
-    PointBlock block_;
-};
-
 void Queries::Tracker::find(std::uint32_t segment, const Vec3d& from, const Vec3d& to,
-                            HitList<vox_track_piece>& out) {
+                            const std::span<const PointHit>* around_from, HitList<vox_track_piece>& out) {
     if (from.x == to.x && from.y == to.y && from.z == to.z) return;
     from_ = from;
     to_ = to;
     pieces_.clear();
     const EntryBound bound(from, to);
-    queries_.tree_.visit_accepted([&bound](const Box3f& box) { return bound(box) <= 1; },
-                                  [&](std::uint32_t leaf) { find_in(leaf, bound); });
+    if (!around_from || !walk_all(*around_from, bound)) {
+        pieces_.clear();
+        queries_.tree_.visit_accepted([&bound](const Box3f& box) { return bound(box) <= 1; },
+                                      [&](std::uint32_t leaf) { find_in(leaf, bound); });
+    }
     place_ends();
     const auto before = [](const Piece& x, const Piece& y) { return x.order() < y.order(); };
     if (!std::is_sorted(pieces_.begin(), pieces_.end(), before))
@@ -173,10 +127,12 @@ void Queries::Tracker::place_ends() {
     };
     for (Piece& p : pieces_) {
         const LeafTets tets = queries_.tets_of(queries_.leaves_[p.leaf]);
-        add(tets, p.place, p.chord.facet_in, p.t_in);
+        if (!p.follows) add(tets, p.place, p.chord.facet_in, p.t_in);
         add(tets, p.place, p.chord.facet_out, p.t_out);
     }
     flush();
+    for (std::size_t i = 0; i < pieces_.size(); ++i)
+        if (pieces_[i].follows) pieces_[i].t_in = pieces_[i - 1].t_out;
 }
 
 // Leaves of the stretches in facets and edges those outside all interiors, each to its lowest tetrahedron: a
@@ -225,9 +181,24 @@ void Queries::Tracker::settle(std::span<const Piece> pieces) {
 
 void Queries::tracks(std::span<const Vec3d> from, std::span<const Vec3d> to, QueryMeshes which,
                      std::pmr::memory_resource* memory, HitList<vox_track_piece>& pieces) const {
+    // Whether a mesh can be walked through takes as long to find as a segment for so many tetrahedra.
+    constexpr std::size_t tets_a_segment = 128;
+    const bool may_find = from.size() * tets_a_segment >= boxes_.size();
+    const bool walks = std::all_of(meshes_.begin(), meshes_.end(), [&](const Mesh& mesh) {
+        return !wants(mesh, which) || is_walkable(mesh, may_find, memory);
+    });
+    Array<PointHit> around(memory);
+    if (walks) find_all(from, which, memory, around);
     Tracker tracker(*this, which, memory);
-    for (std::size_t i = 0; i < from.size(); ++i)
-        tracker.find(static_cast<std::uint32_t>(i), from[i], to[i], pieces);
+    std::size_t begin = 0;
+    for (std::uint32_t i = 0; i < from.size(); ++i) {
+        std::size_t end = begin;
+        while (end < around.size() && around[end].point == i) ++end;
+        const std::span<const PointHit> around_from =
+            std::span<const PointHit>(around).subspan(begin, end - begin);
+        tracker.find(i, from[i], to[i], walks ? &around_from : nullptr, pieces);
+        begin = end;
+    }
 }
 
 } // namespace vox

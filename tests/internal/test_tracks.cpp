@@ -38,7 +38,8 @@ bool find_chord(const Vec3d& from, const Vec3d& to, const QueryDefinition& mesh,
         high = i == 0 ? corner[0] : max(high, corner[i]);
     }
     const Vec3d least = min(from, to), most = max(from, to);
-    if (least.x > high.x || least.y > high.y || least.z > high.z || most.x < low.x || most.y < low.y || most.z < low.z)
+    if (least.x > high.x || least.y > high.y || least.z > high.z || most.x < low.x || most.y < low.y ||
+        most.z < low.z)
         return false;
     const Rational all = volume(corner[0], corner[1], corner[2], corner[3]);
     if (all.sign() == 0) return false;
@@ -90,7 +91,8 @@ std::vector<WantedPiece> wanted_pieces(const Vec3d& from, const Vec3d& to, const
             if (!lowest) lowest = &chord;
         }
         if (is_inside || !lowest) continue;
-        if (wanted.size() == first || wanted.back().tet != lowest->tet || !is_same(wanted.back().t_out, borders[b])) {
+        if (wanted.size() == first || wanted.back().tet != lowest->tet ||
+            !is_same(wanted.back().t_out, borders[b])) {
             wanted.push_back(*lowest);
             wanted.back().t_in = borders[b];
             if (lowest->t_in < borders[b]) wanted.back().facet_in = VOX_NONE;
@@ -124,7 +126,8 @@ std::vector<vox_track_piece> find_all(const OwnLocator& locator, const Segments&
 }
 
 // Some segments one by one, others together, give the same.
-void check_alone(const OwnLocator& locator, const Segments& segments, const std::vector<vox_track_piece>& pieces) {
+void check_alone(const OwnLocator& locator, const Segments& segments,
+                 const std::vector<vox_track_piece>& pieces) {
     std::vector<vox_track_piece> alone;
     for (std::uint32_t i = 0; i < segments.from.size(); ++i)
         for (vox_track_piece& piece : find_all(locator, {{segments.from[i]}, {segments.to[i]}})) {
@@ -144,8 +147,8 @@ void check_tracks(const std::vector<QueryDefinition>& meshes, const Segments& se
         for (std::size_t m = 0; m < meshes.size(); ++m) {
             std::vector<vox_track_piece> wanted;
             for (const WantedPiece& piece : wanted_pieces(segments.from[i], segments.to[i], meshes[m])) {
-                wanted.push_back({i, ids[m], piece.tet, piece.facet_in, piece.facet_out, 0, nearest(piece.t_in),
-                                  nearest(piece.t_out)});
+                wanted.push_back({i, ids[m], piece.tet, piece.facet_in, piece.facet_out, 0,
+                                  nearest(piece.t_in), nearest(piece.t_out)});
                 // A stretch in a facet that is a point once it is rounded is none.
                 if (piece.within && wanted.back().t_in == wanted.back().t_out) wanted.pop_back();
             }
@@ -169,8 +172,8 @@ Segments segments_in(const QueryDefinition& mesh, Random& random, std::size_t co
         const std::uint32_t tet = random.below(std::uint32_t(mesh.tets().size())),
                             other = random.below(std::uint32_t(mesh.tets().size()));
         const auto corner = [&] { return mesh.corner(tet, random.below(4)); };
-        const Vec3d a = mesh.corner(tet, 0), b = mesh.corner(tet, 1), c = mesh.corner(tet, 2), d = mesh.corner(tet, 3),
-                    e = mesh.corner(other, random.below(4));
+        const Vec3d a = mesh.corner(tet, 0), b = mesh.corner(tet, 1), c = mesh.corner(tet, 2),
+                    d = mesh.corner(tet, 3), e = mesh.corner(other, random.below(4));
         const Vec3d p = 0.25 * a + 0.25 * b + 0.25 * c + 0.25 * d + 0.1 * random_vector(random, 1);
         switch (segments.from.size() % 12) {
         case 0:
