@@ -6,11 +6,10 @@
 #include "base/vectors.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 namespace vox {
-
-namespace {
 
 // Let h_i be the volume with P in place of corner i, which is 0 where the segment P(t) crosses plane i, at
 // t_i. The order of t_i and t_j follows from the sign of h_i(0) h_j(1) - h_j(0) h_i(1), which is the
@@ -46,32 +45,40 @@ TrackChord find_chord(const Vec3d& from, const Vec3d& to, const Vec3d* const (&c
         const std::uint8_t* const others = other_corners[i][j];
         return volume * orientation(from, to, *corner[others[0]], *corner[others[1]], exact_tests);
     };
+    const auto choose = [&](std::uint32_t i, std::uint32_t& facet, int wanted) {
+        const int side = facet == VOX_NONE ? wanted : turn(i, facet);
+        if (side == wanted) facet = i;
+        chord.tied |= side == 0;
+    };
     for (std::uint32_t i = 0; i < 4; ++i) {
-        if (enters >> i & 1 && (chord.facet_in == VOX_NONE || turn(i, chord.facet_in) < 0))
-            chord.facet_in = i;
-        if (leaves >> i & 1 && (chord.facet_out == VOX_NONE || turn(i, chord.facet_out) > 0))
-            chord.facet_out = i;
+        if (enters >> i & 1) choose(i, chord.facet_in, -1);
+        if (leaves >> i & 1) choose(i, chord.facet_out, 1);
     }
     chord.any = chord.facet_in == VOX_NONE || chord.facet_out == VOX_NONE ||
                 turn(chord.facet_in, chord.facet_out) < 0;
     return chord;
 }
 
-} // namespace
-
 void Queries::Tracker::find(std::uint32_t segment, const Vec3d& from, const Vec3d& to,
                             const std::span<const PointHit>* around_from, HitList<vox_track_piece>& out) {
     if (from.x == to.x && from.y == to.y && from.z == to.z) return;
     from_ = from;
     to_ = to;
+    const Vec3d way = to - from;
+    axis_ = std::abs(way.x) >= std::abs(way.y) ? 0 : 1;
+    if (std::abs(way.z) > std::max(std::abs(way.x), std::abs(way.y))) axis_ = 2;
+    ascends_ = (axis_ == 0 ? way.x : axis_ == 1 ? way.y : way.z) > 0;
     pieces_.clear();
     const EntryBound bound(from, to);
     if (!around_from || !walk_all(*around_from, bound)) {
         pieces_.clear();
+        end_count_ = 0;
         queries_.tree_.visit_accepted([&bound](const Box3f& box) { return bound(box) <= 1; },
                                       [&](std::uint32_t leaf) { find_in(leaf, bound); });
     }
     place_ends();
+    for (std::size_t i = 0; i < pieces_.size(); ++i)
+        if (pieces_[i].follows) pieces_[i].t_in = pieces_[i - 1].t_out;
     const auto before = [](const Piece& x, const Piece& y) { return x.order() < y.order(); };
     if (!std::is_sorted(pieces_.begin(), pieces_.end(), before))
         std::sort(pieces_.begin(), pieces_.end(), before);
@@ -100,39 +107,33 @@ void Queries::Tracker::find_in(std::uint32_t leaf, const EntryBound& bound) {
         const Vec3d* const corner[4] = {&tets.corner(i, 0), &tets.corner(i, 1), &tets.corner(i, 2),
                                         &tets.corner(i, 3)};
         const TrackChord chord = find_chord(from_, to_, corner);
-        if (chord.any) pieces_.push_back({queries_.leaves_[leaf].mesh, tets.index(i), leaf, i, chord});
+        if (!chord.any) continue;
+        pieces_.push_back({queries_.leaves_[leaf].mesh, tets.index(i), chord});
+        add_end(corner, chord.facet_in, false);
+        add_end(corner, chord.facet_out, true);
     }
 }
 
-// Computes where pieces begin and end.
+// Places the end of the last piece where the segment crosses a facet, now or later.
+void Queries::Tracker::add_end(const Vec3d* const (&corner)[4], std::uint32_t facet, bool out) {
+    if (facet == VOX_NONE) return;
+    const std::size_t i = end_count_++;
+    set(block_.point, i, from_);
+    for (std::size_t c = 0; c < 3; ++c) set(block_.corner[c], i, *corner[facet_corners[facet][c]]);
+    set(block_.corner[3], i, to_);
+    ends_[i] = {pieces_.size() - 1, out};
+    if (end_count_ == point_block) place_ends();
+}
+
 void Queries::Tracker::place_ends() {
-    double* ends[point_block];
-    Crossings crossings;
-    std::size_t count = 0;
-    const auto flush = [&] {
-        if (count == 0) return;
-        fill_last_register(block_, count);
-        cross_planes(block_, count, crossings);
-        for (std::size_t i = 0; i < count; ++i) *ends[i] = crossings.t[i];
-        count = 0;
-    };
-    const auto add = [&](const LeafTets& tets, std::size_t place, std::uint32_t facet, double& end) {
-        if (facet == VOX_NONE) return;
-        set(block_.point, count, from_);
-        for (std::size_t c = 0; c < 3; ++c)
-            set(block_.corner[c], count, tets.corner(place, facet_corners[facet][c]));
-        set(block_.corner[3], count, to_);
-        ends[count++] = &end;
-        if (count == point_block) flush();
-    };
-    for (Piece& p : pieces_) {
-        const LeafTets tets = queries_.tets_of(queries_.leaves_[p.leaf]);
-        if (!p.follows) add(tets, p.place, p.chord.facet_in, p.t_in);
-        add(tets, p.place, p.chord.facet_out, p.t_out);
+    if (end_count_ == 0) return;
+    fill_last_register(block_, end_count_);
+    cross_planes(block_, end_count_, crossings_);
+    for (std::size_t i = 0; i < end_count_; ++i) {
+        Piece& piece = pieces_[ends_[i].piece];
+        (ends_[i].out ? piece.t_out : piece.t_in) = crossings_.t[i];
     }
-    flush();
-    for (std::size_t i = 0; i < pieces_.size(); ++i)
-        if (pieces_[i].follows) pieces_[i].t_in = pieces_[i - 1].t_out;
+    end_count_ = 0;
 }
 
 // Leaves of the stretches in facets and edges those outside all interiors, each to its lowest tetrahedron: a

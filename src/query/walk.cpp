@@ -1,12 +1,13 @@
 // Tracks through meshes whose neighbours are on opposite sides of their common facets: from where a segment
 // begins, and from each facet of the surface where it enters, from tetrahedron to tetrahedron. No such way
-// turns back, so all pieces are on one. A segment that passes through an edge or a vertex, lies in a facet, or
-// begins on one is left to the search of the tree.
+// turns back, so all pieces are on one. A segment that passes through an edge or a vertex, lies in a facet,
+// or begins on one is left to the search of the tree.
 #include "query/tracker.hpp"
 
 #include "base/vectors.hpp"
 
 #include <algorithm>
+#include <optional>
 
 namespace vox {
 
@@ -41,14 +42,17 @@ bool Queries::is_walkable(const Mesh& mesh, bool may_find, std::pmr::memory_reso
 bool Queries::Tracker::walk_all(std::span<const PointHit> around_from, const EntryBound& bound) {
     for (const PointHit& hit : around_from) {
         if (!hit.interior) return false;
-        if (!walk(hit.leaf, hit.place, VOX_NONE, 0)) return false;
+        std::uint64_t exact_tests = 0;
+        const LeafTets tets = queries_.tets_of(queries_.leaves_[hit.leaf]);
+        const int volume = orientation(tets.corner(hit.place, 0), tets.corner(hit.place, 1),
+                                       tets.corner(hit.place, 2), tets.corner(hit.place, 3), exact_tests);
+        if (!walk(hit.leaf, hit.place, VOX_NONE, volume)) return false;
     }
     bool simple = true;
     const double most = 1;
     queries_.visit_facets(which_, most, bound,
-                          [&](std::uint32_t leaf, const LeafTets& tets, std::size_t tet, std::uint32_t facet, double) {
-                              simple = simple && enter(leaf, tets, tet, facet);
-                          });
+                          [&](std::uint32_t leaf, const LeafTets& tets, std::size_t tet, std::uint32_t facet,
+                              double) { simple = simple && enter(leaf, tets, tet, facet); });
     return simple;
 }
 
@@ -78,45 +82,86 @@ bool Queries::Tracker::enter(std::uint32_t leaf, const LeafTets& tets, std::size
     return !zero && walk(leaf, static_cast<std::uint32_t>(tet), facet, volume);
 }
 
-// Appends the pieces from a tetrahedron on, which the segment enters by a facet, or in which it begins if that
-// is VOX_NONE; `volume` is its sign, or 0. False at an edge or a vertex.
+namespace {
+
+// The facet by which the line from `from` to `to` leaves a tetrahedron that it enters by the interior of
+// facet `in`; VOX_NONE if it may pass through an edge. `volume` is the tetrahedron's sign.
+std::uint32_t way_out(const Vec3d& from, const Vec3d& to, const Vec3d* const (&corner)[4], std::uint32_t in,
+                      int volume) {
+    std::uint64_t exact_tests = 0;
+    const TrianglePlane plane(from, to, *corner[in]);
+    // Of two facets, by the first one that it meets: see find_chord().
+    const auto first = [&](std::uint32_t i, std::uint32_t j) {
+        const std::uint8_t* const others = other_corners[i][j];
+        const bool swapped = others[1] == in;
+        const Vec3d& other = *corner[swapped ? others[0] : others[1]];
+        const BoundedVolume turn = plane.volume(other);
+        int side = turn.volume > 0 ? 1 : -1;
+        if (!turn.certain()) side = orientation(from, to, *corner[in], other, exact_tests);
+        if (side == 0) return std::uint32_t{VOX_NONE};
+        return (volume * side > 0) != swapped ? i : j;
+    };
+    const std::uint32_t out = first((in + 1) % 4, (in + 2) % 4);
+    return out == VOX_NONE ? out : first(out, (in + 3) % 4);
+}
+
+double coordinate(const Vec3d& p, int axis) noexcept { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
+
+} // namespace
+
+// True if the segment certainly does not end before it is beyond a facet: all corners are.
+bool Queries::Tracker::ends_beyond(const Vec3d* const (&corner)[4], std::uint32_t facet) const noexcept {
+    const double end = coordinate(to_, axis_);
+    bool beyond = true;
+    for (const std::uint8_t c : facet_corners[facet]) {
+        const double at = coordinate(*corner[c], axis_);
+        beyond &= ascends_ ? at < end : at > end;
+    }
+    return beyond;
+}
+
+// Appends the pieces from a tetrahedron on, which the segment enters by a facet, or in which it begins if
+// that is VOX_NONE; `volume` is its sign. False at an edge or a vertex.
 bool Queries::Tracker::walk(std::uint32_t leaf, std::uint32_t place, std::uint32_t facet_in, int volume) {
-    const std::uint32_t mesh = queries_.leaves_[leaf].mesh;
-    const auto first_leaf = static_cast<std::uint32_t>(queries_.meshes_[mesh].first_leaf);
+    const std::uint32_t m = queries_.leaves_[leaf].mesh;
+    const Mesh& mesh = queries_.meshes_[m];
+    std::uint32_t link = queries_.leaves_[leaf].tile * tile_size + place, tile = QueryTets::no_link;
+    std::optional<LeafTets> tets;
     std::uint64_t exact_tests = 0;
     for (bool follows = false;; follows = true) {
-        const LeafTets tets = queries_.tets_of(queries_.leaves_[leaf]);
-        const Vec3d* const corner[4] = {&tets.corner(place, 0), &tets.corner(place, 1), &tets.corner(place, 2),
-                                        &tets.corner(place, 3)};
-        if (volume == 0) volume = orientation(*corner[0], *corner[1], *corner[2], *corner[3], exact_tests);
-        const auto after = [&](std::uint32_t i) { // the side of facet i where the segment ends
-            return volume * orientation(i == 0 ? to_ : *corner[0], i == 1 ? to_ : *corner[1],
-                                        i == 2 ? to_ : *corner[2], i == 3 ? to_ : *corner[3], exact_tests);
-        };
-        // Of two facets, it leaves by the first one that it meets.
-        std::uint32_t out = VOX_NONE;
-        for (std::uint32_t i = 0; i < 4; ++i) {
-            if (i == facet_in || (facet_in == VOX_NONE && after(i) >= 0)) continue;
-            if (out == VOX_NONE) {
-                out = i;
-                continue;
-            }
-            const std::uint8_t* const others = other_corners[i][out];
-            const int turn = orientation(from_, to_, *corner[others[0]], *corner[others[1]], exact_tests);
-            if (turn == 0) return false;
-            if (volume * turn > 0) out = i;
+        if (link / tile_size != tile) {
+            tile = link / tile_size;
+            tets.emplace(mesh, tile, queries_.vertices_.data(), queries_.boxes_.data());
         }
-        if (facet_in != VOX_NONE && after(out) >= 0) out = VOX_NONE;
-        pieces_.push_back({mesh, tets.index(place), leaf, place, {true, false, facet_in, out}, follows});
+        const std::uint32_t i = link % tile_size;
+        const Vec3d* const corner[4] = {&tets->corner(i, 0), &tets->corner(i, 1), &tets->corner(i, 2),
+                                        &tets->corner(i, 3)};
+        const auto leaves_by = [&](std::uint32_t facet) {
+            return ends_beyond(corner, facet) ||
+                   volume * orientation(*corner[facet_corners[facet][0]], *corner[facet_corners[facet][1]],
+                                        *corner[facet_corners[facet][2]], to_, exact_tests) >
+                       0;
+        };
+        std::uint32_t out = VOX_NONE;
+        if (facet_in == VOX_NONE) {
+            const TrackChord chord = find_chord(from_, to_, corner);
+            if (chord.tied) return false;
+            out = chord.facet_out;
+        } else {
+            out = way_out(from_, to_, corner, facet_in, volume);
+            if (out == VOX_NONE) return false;
+            if (!leaves_by(out)) out = VOX_NONE;
+        }
+        pieces_.push_back({m, tets->index(i), {true, false, false, facet_in, out}, follows});
+        if (!follows) add_end(corner, facet_in, false);
+        add_end(corner, out, true);
         if (out == VOX_NONE) return true;
-        const std::uint32_t across = tets.links(place)[out];
+        const std::uint32_t across = tets->links(i)[out];
         if (across == QueryTets::no_link) return true;
-        const std::uint32_t here = (leaf - first_leaf) * tile_size + place;
-        if (tets.is_turned(place, out)) volume = -volume;
-        leaf = first_leaf + across / tile_size;
-        place = across % tile_size;
-        const auto& back = queries_.tets_of(queries_.leaves_[leaf]).links(place);
-        facet_in = static_cast<std::uint32_t>(std::find(back.begin(), back.end(), here) - back.begin());
+        if (tets->is_turned(i, out)) volume = -volume;
+        const auto& back = mesh.tets->links[mesh.tets->place(across)];
+        facet_in = static_cast<std::uint32_t>(std::find(back.begin(), back.end(), link) - back.begin());
+        link = across;
     }
 }
 
