@@ -135,9 +135,10 @@ void Queries::make_boxes(std::uint32_t leaf) noexcept {
         vox::add(box, corner(3));
         boxes[i] = box3f(box);
         vox::add(all, box);
+        if (facets[i] == 0) continue;
         for (std::size_t c = 0; c < 4; ++c)
             // A corner is in the three facets that are not opposite to it.
-            if (facets[i] & 15u & ~(1u << c)) vox::add(surface, corner(c));
+            if (facets[i] & ~(1u << c)) vox::add(surface, corner(c));
     }
     leaf_boxes_[leaf] = box3f(all);
     surface_boxes_[leaf] = box3f(surface);

@@ -199,13 +199,9 @@ public:
     // The index in its mesh.
     std::uint32_t index(std::size_t i) const noexcept { return tets_.tiles.tets[tile_.first_tet + i]; }
     // Bit f is set when facet f is on the surface.
-    unsigned facets(std::size_t i) const noexcept { return tets_.facets[tile_.first_tet + i] & 15u; }
-    // See QueryTets.
-    bool is_turned(std::size_t i, std::size_t facet) const noexcept {
-        return tets_.facets[tile_.first_tet + i] >> (4 + facet) & 1;
-    }
-    const std::array<std::uint32_t, 4>& links(std::size_t i) const noexcept {
-        return tets_.links[tile_.first_tet + i];
+    unsigned facets(std::size_t i) const noexcept { return tets_.facets[tile_.first_tet + i]; }
+    TetLink across(std::size_t i, std::size_t facet) const noexcept {
+        return tets_.links[tile_.first_tet + i][facet];
     }
     std::uint32_t vertex(std::size_t i, std::size_t corner) const noexcept {
         return tets_.tiles.vertices[tile_.first_vertex + corners_[corner * tile_size + i]];

@@ -21,44 +21,37 @@ bool is_odd(std::uint32_t a, std::uint32_t b, std::uint32_t c) noexcept {
 
 // Links the tetrahedra across facets, and compares their orders.
 void link(const Topology& topology, QueryTets& made) {
-    constexpr std::uint32_t no_link = QueryTets::no_link;
     const Tiles& tiles = made.tiles;
-    if (tiles.tiles.size() >= no_link / tile_size) return;
-    Array<std::uint32_t> place_of(topology.across.size(), no_link, made.links.memory());
+    if (tiles.tiles.size() >= TetLink::no_tile) return;
+    Array<TetLink> places(topology.across.size(), TetLink{TetLink::no_tile, 0, 0, 0}, made.links.memory());
     for (std::uint32_t t = 0; t < tiles.tiles.size(); ++t)
         for (std::uint32_t i = 0; i < tiles.tiles[t].tet_count; ++i)
-            place_of[tiles.tets[tiles.tiles[t].first_tet + i]] = tile_size * t + i;
-    made.links.reserve(tiles.tets.size());
-    for (const std::uint32_t tet : tiles.tets) {
-        std::array<std::uint32_t, 4> links = topology.across[tet];
-        for (std::uint32_t& link : links) {
-            const std::uint32_t other = link;
-            link = other & Topology::surface_bit ? no_link : place_of[other];
-            const auto back = link == no_link ? std::array<std::uint32_t, 4>{} : topology.across[other];
-            if (other == Topology::nothing || (link != no_link && std::ranges::find(back, tet) == back.end()))
-                return made.links.clear();
-        }
-        made.links.push_back(links);
-    }
-    const auto odd_facet = [&](std::uint32_t place, std::size_t facet) {
-        const Tile& tile = tiles.tiles[place / tile_size];
+            places[tiles.tets[tiles.tiles[t].first_tet + i]] = {t & TetLink::no_tile, i & 63u, 0, 0};
+    const auto is_odd_facet = [&](const TetLink& tet, std::size_t facet) {
         const auto vertex = [&](std::size_t c) {
-            const std::size_t corner = facet_corners[facet][c];
             return tiles
-                .vertices[tile.first_vertex +
-                          tiles.corners_of(place / tile_size)[corner * tile_size + place % tile_size]];
+                .vertices[tiles.tiles[tet.tile].first_vertex +
+                          tiles.corners_of(tet.tile)[facet_corners[facet][c] * tile_size + tet.place]];
         };
         return is_odd(vertex(0), vertex(1), vertex(2));
     };
-    for (std::size_t t = 0; t < tiles.tets.size(); ++t)
+    made.links.reserve(tiles.tets.size());
+    for (const std::uint32_t tet : tiles.tets) {
+        std::array<TetLink, 4> links;
         for (std::size_t f = 0; f < 4; ++f) {
-            const std::uint32_t here = place_of[tiles.tets[t]], there = made.links[t][f];
-            if (there == no_link) continue;
-            const auto& back = made.links[made.place(there)];
-            const auto facet = static_cast<std::size_t>(std::ranges::find(back, here) - back.begin());
-            made.facets[t] |=
-                static_cast<std::uint8_t>((odd_facet(here, f) == odd_facet(there, facet)) << (4 + f));
+            const std::uint32_t other = topology.across(tet, static_cast<std::uint32_t>(f));
+            if (other == Topology::nothing) return made.links.clear();
+            links[f] = {TetLink::no_tile, 0, 0, 0};
+            if (other & Topology::surface_bit) continue;
+            const auto back = topology.across[other];
+            const std::size_t facet = std::size_t(std::ranges::find(back, tet) - back.begin());
+            if (facet == 4 || places[other].tile == TetLink::no_tile) return made.links.clear();
+            links[f] = places[other];
+            links[f].facet = static_cast<std::uint32_t>(facet) & 3u;
+            links[f].turned = is_odd_facet(places[tet], f) == is_odd_facet(places[other], facet);
         }
+        made.links.push_back(links);
+    }
 }
 
 } // namespace

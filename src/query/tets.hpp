@@ -12,23 +12,24 @@
 
 namespace vox {
 
+// The tetrahedron across a facet.
+struct TetLink {
+    std::uint32_t tile : 23, place : 6; // in the tile
+    std::uint32_t facet : 2;            // the same facet, as that tetrahedron's
+    std::uint32_t turned : 1;           // its corners are in the other order: volumes of one sign overlap
+    static constexpr std::uint32_t no_tile = 0x7fffff;
+};
+
 // Never changed, so that all locators of the same tetrahedra share it.
 struct QueryTets {
     explicit QueryTets(std::pmr::memory_resource* memory) noexcept
         : tiles(memory), facets(memory), links(memory) {}
 
-    Tiles tiles; // those that hold tetrahedra: tiles, corners, tets and vertices
-    // For each of tiles.tets: bit f if facet f (facet_corners) is on the surface; bit 4 + f if the
-    // tetrahedron across it has its corners in the other order, so that volumes of one sign overlap.
-    Array<std::uint8_t> facets;
-    // For each facet of each of tiles.tets the tetrahedron across it, as 64 * tile + place in the tile; or
-    // no_link. Empty if some facets have more than two tetrahedra, or a tetrahedron is there twice.
-    Array<std::array<std::uint32_t, 4>> links;
-    static constexpr std::uint32_t no_link = ~0u;
-    // The place of what is linked in tiles.tets, in `facets` and in `links`.
-    std::size_t place(std::uint32_t link) const noexcept {
-        return std::size_t{tiles.tiles[link / tile_size].first_tet} + link % tile_size;
-    }
+    Tiles tiles;                // those that hold tetrahedra: tiles, corners, tets and vertices
+    Array<std::uint8_t> facets; // for each of tiles.tets, a bit for each facet (facet_corners) on the surface
+    // For each facet of each of tiles.tets what is across it. Empty if some facets have more than two
+    // tetrahedra, a tetrahedron is there twice, or there are too many.
+    Array<std::array<TetLink, 4>> links;
 };
 
 // Throws what the memory throws.

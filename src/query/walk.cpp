@@ -29,10 +29,10 @@ bool Queries::is_walkable(const Mesh& mesh, bool may_find, std::pmr::memory_reso
         }
         for (std::size_t t = 0; t < sign.size(); ++t)
             for (std::size_t f = 0; f < 4; ++f) {
-                const std::uint32_t across = tets.links[t][f];
-                if (across == QueryTets::no_link) continue;
-                const bool turned = tets.facets[t] >> (4 + f) & 1;
-                if ((sign[t] == sign[tets.place(across)]) == turned) return false;
+                const TetLink across = tets.links[t][f];
+                if (across.tile == TetLink::no_tile) continue;
+                const std::int8_t other = sign[tets.tiles.tiles[across.tile].first_tet + across.place];
+                if ((sign[t] == other) == across.turned) return false;
             }
         return true;
     });
@@ -125,17 +125,16 @@ bool Queries::Tracker::ends_beyond(const Vec3d* const (&corner)[4], std::uint32_
 bool Queries::Tracker::walk(std::uint32_t leaf, std::uint32_t place, std::uint32_t facet_in, int volume) {
     const std::uint32_t m = queries_.leaves_[leaf].mesh;
     const Mesh& mesh = queries_.meshes_[m];
-    std::uint32_t link = queries_.leaves_[leaf].tile * tile_size + place, tile = QueryTets::no_link;
+    std::uint32_t next = queries_.leaves_[leaf].tile, tile = TetLink::no_tile;
     std::optional<LeafTets> tets;
     std::uint64_t exact_tests = 0;
     for (bool follows = false;; follows = true) {
-        if (link / tile_size != tile) {
-            tile = link / tile_size;
+        if (next != tile) {
+            tile = next;
             tets.emplace(mesh, tile, queries_.vertices_.data(), queries_.boxes_.data());
         }
-        const std::uint32_t i = link % tile_size;
-        const Vec3d* const corner[4] = {&tets->corner(i, 0), &tets->corner(i, 1), &tets->corner(i, 2),
-                                        &tets->corner(i, 3)};
+        const Vec3d* const corner[4] = {&tets->corner(place, 0), &tets->corner(place, 1),
+                                        &tets->corner(place, 2), &tets->corner(place, 3)};
         const auto leaves_by = [&](std::uint32_t facet) {
             return ends_beyond(corner, facet) ||
                    volume * orientation(*corner[facet_corners[facet][0]], *corner[facet_corners[facet][1]],
@@ -152,16 +151,16 @@ bool Queries::Tracker::walk(std::uint32_t leaf, std::uint32_t place, std::uint32
             if (out == VOX_NONE) return false;
             if (!leaves_by(out)) out = VOX_NONE;
         }
-        pieces_.push_back({m, tets->index(i), {true, false, false, facet_in, out}, follows});
+        pieces_.push_back({m, tets->index(place), {true, false, false, facet_in, out}, follows});
         if (!follows) add_end(corner, facet_in, false);
         add_end(corner, out, true);
         if (out == VOX_NONE) return true;
-        const std::uint32_t across = tets->links(i)[out];
-        if (across == QueryTets::no_link) return true;
-        if (tets->is_turned(i, out)) volume = -volume;
-        const auto& back = mesh.tets->links[mesh.tets->place(across)];
-        facet_in = static_cast<std::uint32_t>(std::find(back.begin(), back.end(), link) - back.begin());
-        link = across;
+        const TetLink across = tets->across(place, out);
+        if (across.tile == TetLink::no_tile) return true;
+        if (across.turned) volume = -volume;
+        next = across.tile;
+        place = across.place;
+        facet_in = across.facet;
     }
 }
 
