@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/array.hpp"
+#include "base/prefetch.hpp"
 #include "mesh/tiles.hpp"
 #include "mesh/topology.hpp"
 
@@ -30,6 +31,11 @@ struct QueryTets {
     // For each facet of each of tiles.tets what is across it. Empty if some facets have more than two
     // tetrahedra, a tetrahedron is there twice, or there are too many.
     Array<std::array<TetLink, 4>> links;
+
+    void prefetch(const TetLink& tet) const noexcept {
+        if (tet.tile != TetLink::no_tile)
+            vox::prefetch(links.data() + tiles.tiles[tet.tile].first_tet + tet.place);
+    }
 };
 
 // Throws what the memory throws.

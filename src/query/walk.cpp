@@ -135,6 +135,8 @@ bool Queries::Tracker::walk(std::uint32_t leaf, std::uint32_t place, std::uint32
         }
         const Vec3d* const corner[4] = {&tets->corner(place, 0), &tets->corner(place, 1),
                                         &tets->corner(place, 2), &tets->corner(place, 3)};
+        for (std::size_t f = 0; f < 4; ++f)
+            if (f != facet_in) mesh.tets->prefetch(tets->across(place, f));
         const auto leaves_by = [&](std::uint32_t facet) {
             return ends_beyond(corner, facet) ||
                    volume * orientation(*corner[facet_corners[facet][0]], *corner[facet_corners[facet][1]],
