@@ -109,7 +109,7 @@ void check_locate(Run& run, const vox_locator* locator, vox_dist_scene* scene, s
     const vox_positions asked = vox_double_positions(points.data(), 20);
     if (vox_dist_scene_locate(scene, &asked, found.data()) != VOX_OK) return note(run, vox_last_error());
     for (std::uint32_t i = 0; i < 20; ++i) {
-        vox_point_hit hits[64];
+        vox_point_hit hits[64]; // whose weights are those of locations, bit for bit
         std::uint64_t count = 0;
         const vox_positions at = vox_double_positions(&points[3 * i], 1);
         (void)vox_locator_find_point_hits(locator, &at, nullptr, hits, 64, &count);
