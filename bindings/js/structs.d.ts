@@ -289,7 +289,7 @@ export interface PointHit {
   point: number;
   body: number;
   tet: number;
-  /** of the tetrahedron's corners, in [0, 1]; as accurate as in vox_location */
+  /** of the tetrahedron's corners, in [0, 1], each within 2^-41 of the true one */
   weights: [number, number, number, number];
 }
 

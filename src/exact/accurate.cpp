@@ -40,8 +40,8 @@ HWY_INLINE TwofoldMinor AccurateMinor(const TwofoldPoint& u, const TwofoldPoint&
     return {left - right, hn::Add(hn::Abs(left.high), hn::Abs(right.high))};
 }
 
-// As determinant() in predicates.hpp. `most` becomes at least the sum of the terms' magnitudes: the result is
-// off by less than 2^-98 of it.
+// Expanded like determinant() in predicates.hpp. `most` becomes at least the sum of the terms' magnitudes:
+// the result is off by less than 2^-98 of it.
 HWY_INLINE Twofold AccurateDeterminant(const Twofold& uz, const TwofoldMinor& vw, const Twofold& vz,
                                        const TwofoldMinor& uw, const Twofold& wz, const TwofoldMinor& uv,
                                        WideDouble& most) {

@@ -186,7 +186,7 @@ inline constexpr double barycentric_error = 0x1p-44;
 std::array<double, 4> barycentric(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c,
                                   const Vec3d& d);
 
-// The same for any point, each rounded to double once. Slow: see exact/accurate.hpp.
+// Barycentric coordinates of any point, each rounded to double once. Slow: see exact/accurate.hpp.
 std::array<double, 4> exact_weights(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c,
                                     const Vec3d& d);
 

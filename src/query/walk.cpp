@@ -90,7 +90,7 @@ std::uint32_t way_out(const Vec3d& from, const Vec3d& to, const Vec3d* const (&c
                       int volume) {
     std::uint64_t exact_tests = 0;
     const TrianglePlane plane(from, to, *corner[in]);
-    // Of two facets, by the first one that it meets: see find_chord().
+    // Chooses from two facets the first one that it meets: see find_chord().
     const auto first = [&](std::uint32_t i, std::uint32_t j) {
         const std::uint8_t* const others = other_corners[i][j];
         const bool swapped = others[1] == in;

@@ -937,7 +937,7 @@ namespace Voxtet
         public uint tet;
         /// <summary>0</summary>
         public uint reserved;
-        /// <summary>of the tetrahedron's corners, in [0, 1]; as accurate as in vox_location</summary>
+        /// <summary>of the tetrahedron's corners, in [0, 1], each within 2^-41 of the true one</summary>
         public Double4 weights;
     }
 

@@ -805,7 +805,7 @@ pub struct vox_point_hit {
     pub tet: u32,
     /// 0
     pub reserved: u32,
-    /// of the tetrahedron's corners, in [0, 1]; as accurate as in vox_location
+    /// of the tetrahedron's corners, in [0, 1], each within 2^-41 of the true one
     pub weights: [f64; 4],
 }
 
