@@ -135,8 +135,26 @@ export type LogLevel = (typeof LogLevel)[keyof typeof LogLevel];
 export declare const QueryFlags: Readonly<{
   /** vox_locator_find_ray_hits: report only the first hit of each ray */
   FIRST_HIT: 1;
+  /**
+   * vox_locator_locate: for a point outside, compute the weights of the point itself, some of which are negative,
+   * rather than of the closest point
+   */
+  EXTRAPOLATE: 2;
 }>;
 export type QueryFlags = number;
+
+export declare const LocationState: Readonly<{
+  /** no body is within max_distance; the other fields are 0 */
+  NONE: 0;
+  /** the closed tetrahedron contains the point */
+  INSIDE: 1;
+  /**
+   * no tetrahedron contains the point; this one has the closest point of all surfaces, as vox_locator_find_closest
+   * finds it
+   */
+  OUTSIDE: 2;
+}>;
+export type LocationState = (typeof LocationState)[keyof typeof LocationState];
 
 export declare const Side: Readonly<{
   /** the facet's tetrahedron has no volume */

@@ -94,6 +94,13 @@ export const LogLevel = Object.freeze({
 
 export const QueryFlags = Object.freeze({
   FIRST_HIT: 1,
+  EXTRAPOLATE: 2,
+});
+
+export const LocationState = Object.freeze({
+  NONE: 0,
+  INSIDE: 1,
+  OUTSIDE: 2,
 });
 
 export const Side = Object.freeze({

@@ -1,7 +1,7 @@
 // Written by bindings/generate.py from bindings/api.json. Do not edit.
 
 import type { CellsKept, CellsQueried, CellsStored, ConstraintKind, CostModel, DepthMethod, DepthState, Format,
-KnownGrid, PairState, PrimitiveType, Result, Side } from "./enums.js";
+KnownGrid, LocationState, PairState, PrimitiveType, Result, Side } from "./enums.js";
 
 /** Settings of a grid; all 0 by default. What the pointers name is copied. */
 export interface GridDesc {
@@ -250,8 +250,37 @@ export interface QueryDesc {
   mask: bigint;
   /** not this body, e.g. the asking body; an id that the locator does not have excludes none */
   excluded: number;
-  /** vox_locator_find_closest: no further than this, in the caller's unit; 0: any distance */
+  /** vox_locator_locate and vox_locator_find_closest: no further than this, in the caller's unit; 0: any distance */
   maxDistance: number;
+}
+
+/**
+ * Where a point is, and the weights that interpolate a field there. If several tetrahedra contain the point, this is
+ * one of the lowest body: the lowest that has the point in its interior or, if there is none, the lowest that has it on
+ * its boundary.
+ */
+export interface Location {
+  body: number;
+  tet: number;
+  state: LocationState;
+  /**
+   * Of the tetrahedron's corners, for the point or, if it is outside, for the closest point; VOX_QUERY_EXTRAPOLATE asks
+   * for the point. Each is rounded from the true weight once, or off by 2^-58 more. Exceptions are the closest points
+   * of facets thinner than 2^-20 of their length or with an edge below 2^-40 of the distance, and a flat tetrahedron is
+   * not extrapolated.
+   */
+  weights: [number, number, number, number];
+  /** to the closest point, in the caller's unit; 0 inside */
+  distance: number;
+}
+
+/** Columns of Location: of an array field, its elements one after the other. */
+export interface LocationColumns {
+  readonly body: Uint32Array;
+  readonly tet: Uint32Array;
+  readonly state: Int32Array;
+  readonly weights: Float64Array;
+  readonly distance: Float64Array;
 }
 
 /** A tetrahedron that contains a point. */
@@ -352,6 +381,32 @@ export interface RayHitColumns {
   readonly face: Uint32Array;
   readonly t: Float64Array;
   readonly weights: Float64Array;
+}
+
+/** The part of a segment that lies in one tetrahedron. A segment is a closed one, as a ray is. */
+export interface TrackPiece {
+  /** index of the segment */
+  segment: number;
+  body: number;
+  tet: number;
+  /** where the segment enters the tetrahedron, the lowest of several; VOX_NONE if the piece begins elsewhere */
+  facetIn: number;
+  /** where it leaves; VOX_NONE if the piece ends elsewhere */
+  facetOut: number;
+  /** the doubles nearest to the true ones */
+  tIn: number;
+  tOut: number;
+}
+
+/** Columns of TrackPiece: of an array field, its elements one after the other. */
+export interface TrackPieceColumns {
+  readonly segment: Uint32Array;
+  readonly body: Uint32Array;
+  readonly tet: Uint32Array;
+  readonly facetIn: Uint32Array;
+  readonly facetOut: Uint32Array;
+  readonly tIn: Float64Array;
+  readonly tOut: Float64Array;
 }
 
 /** A point of a cost curve. */

@@ -19,6 +19,13 @@ int main(void) {
     must(vox_locator_find_point_hits(locator, &from, NULL, &hit, 1, &count));
     printf("%" PRIu64 " hit: point %u is in tet %u of mesh %u\n", count, hit.point, hit.tet, hit.body);
 
+    vox_location where[2];
+    must(vox_locator_locate(locator, &from, NULL, where));
+    for (int i = 0; i < 2; ++i)
+        printf("point %d is %s, %g away from tet %u of mesh %u\n", i,
+               where[i].state == VOX_LOCATION_INSIDE ? "inside" : "outside", where[i].distance, where[i].tet,
+               where[i].body);
+
     vox_closest_hit closest[2];
     must(vox_locator_find_closest(locator, &from, NULL, closest));
     for (int i = 0; i < 2; ++i)
@@ -32,6 +39,12 @@ int main(void) {
     vox_ray_hit ray;
     must(vox_locator_find_ray_hits(locator, &from, &to, &desc, &ray, 1, &count));
     printf("ray %u meets mesh %u at x = %g\n", ray.ray, ray.body, xyz[ray.ray][0] + 7 * ray.t);
+
+    vox_track_piece pieces[8];
+    must(vox_locator_find_tracks(locator, &from, &to, NULL, pieces, 8, &count));
+    for (uint64_t i = 0; i < count && i < 8; ++i)
+        printf("segment %u is in tet %u of mesh %u from t = %g to %g\n", pieces[i].segment, pieces[i].tet,
+               pieces[i].body, pieces[i].t_in, pieces[i].t_out);
     vox_locator_release(locator);
     vox_grid_destroy(grid);
     return 0;

@@ -153,12 +153,12 @@ VOX_EXPERIMENTAL vox_result vox_dist_scene_get_hash(vox_dist_scene* scene, uint6
 
 /* ---- points ----------------------------------------------------------------------------------- */
 
-/* Where a point is: in which tetrahedron of the lowest body that contains it. That is the lowest tetrahedron that has
- * the point in its interior or, if there is none, the lowest that has it on its boundary. */
+/* Where a point is: in which tetrahedron of the lowest body that contains it, by the rule of vox_location. A point
+ * outside is in none, however near the next body is. */
 typedef struct vox_dist_location {
     uint64_t body;
     uint64_t tet;         /* global number */
-    double weights[4]; /* barycentric weights of the point in the tetrahedron */
+    double weights[4];    /* of the tetrahedron's corners, as in vox_location */
     uint32_t rank;        /* where the tetrahedron lies; VOX_NONE: no tetrahedron contains the point; the other fields
                              are 0 */
     uint32_t interior;    /* 1 if the point is in the interior of the tetrahedron, 0 if on its boundary */

@@ -41,7 +41,7 @@ typedef struct vox_locator vox_locator;
 /* Takes a locator of the grid as it is now, and releases what *locator held before, if anything. The caller owns
  * *locator and releases it with vox_locator_release. The first call after a mesh was inserted or edited takes longer.
  * If the call fails, *locator stays as it is.
- * A locator uses the grid's memory, within its byte budget: about 36 bytes a vertex and 28 a tetrahedron, and 12 a
+ * A locator uses the grid's memory, within its byte budget: about 36 bytes a vertex and 28 a tetrahedron, and 28 a
  * tetrahedron that all locators of a grid share. The memory of released locators is used again, so that a program that
  * takes one in every frame soon allocates nothing; vox_grid_clear and vox_grid_destroy return it. If a locator outlives
  * its grid, its last release returns its memory, on the thread that calls.
@@ -65,7 +65,9 @@ VOX_API vox_result vox_locator_get_user_data(const vox_locator* locator, vox_bod
 /* ---- which bodies answer ---------------------------------------------------------------------- */
 
 typedef enum vox_query_flags {
-    VOX_QUERY_FIRST_HIT = 1 /* vox_locator_find_ray_hits: report only the first hit of each ray */
+    VOX_QUERY_FIRST_HIT = 1,  /* vox_locator_find_ray_hits: report only the first hit of each ray */
+    VOX_QUERY_EXTRAPOLATE = 2 /* vox_locator_locate: for a point outside, compute the weights of the point itself, some of
+                                 which are negative, rather than of the closest point */
 } vox_query_flags;
 
 /* Which bodies answer, and how far to look. All fields are 0 by default: all bodies, at any distance. */
@@ -75,7 +77,8 @@ typedef struct vox_query_desc {
     uint64_t mask;       /* only bodies whose category had a bit in common with it; 0: all */
     vox_body excluded;   /* not this body, e.g. the asking body; an id that the locator does not have excludes none */
     uint32_t reserved;   /* 0 */
-    double max_distance; /* vox_locator_find_closest: no further than this, in the caller's unit; 0: any distance */
+    double max_distance; /* vox_locator_locate and vox_locator_find_closest: no further than this, in the caller's unit;
+                            0: any distance */
 } vox_query_desc;
 
 static inline vox_query_desc vox_default_query_desc(void) {
@@ -85,6 +88,35 @@ static inline vox_query_desc vox_default_query_desc(void) {
 }
 
 /* ---- points ----------------------------------------------------------------------------------- */
+
+typedef enum vox_location_state {
+    VOX_LOCATION_NONE = 0,   /* no body is within max_distance; the other fields are 0 */
+    VOX_LOCATION_INSIDE = 1, /* the closed tetrahedron contains the point */
+    VOX_LOCATION_OUTSIDE = 2 /* no tetrahedron contains the point; this one has the closest point of all surfaces, as
+                                vox_locator_find_closest finds it */
+} vox_location_state;
+
+/* Where a point is, and the weights that interpolate a field there. If several tetrahedra contain the point, this is one
+ * of the lowest body: the lowest that has the point in its interior or, if there is none, the lowest that has it on its
+ * boundary. */
+typedef struct vox_location {
+    vox_body body;
+    uint32_t tet;
+    vox_location_state state;
+    uint32_t reserved; /* 0 */
+    /* Of the tetrahedron's corners, for the point or, if it is outside, for the closest point; VOX_QUERY_EXTRAPOLATE asks
+     * for the point. Each is rounded from the true weight once, or off by 2^-58 more. Exceptions are the closest points of
+     * facets thinner than 2^-20 of their length or with an edge below 2^-40 of the distance, and a flat tetrahedron is not
+     * extrapolated. */
+    double weights[4];
+    double distance; /* to the closest point, in the caller's unit; 0 inside */
+} vox_location;
+
+/* Locates points: out_locations[i] is for point i, and depends on no other point. No point inside a mesh is missed, on
+ * whatever facet, edge or vertex it is. Many points in one call are located several times as fast as one by one, whatever
+ * their order. Errors: also INVALID_ARGUMENT (a negative or NaN max_distance). */
+VOX_API vox_result vox_locator_locate(const vox_locator* locator, const vox_positions* points,
+                                      VOX_OPTIONAL const vox_query_desc* desc, vox_location* out_locations);
 
 /* A tetrahedron that contains a point. */
 typedef struct vox_point_hit {
@@ -177,6 +209,31 @@ VOX_API vox_result vox_locator_find_ray_hits(const vox_locator* locator, const v
  * for a ray ends at the first such tetrahedron. from[i] = to[i] tests a point. */
 VOX_API vox_result vox_locator_test_rays(const vox_locator* locator, const vox_positions* from, const vox_positions* to,
                                          VOX_OPTIONAL const vox_query_desc* desc, uint8_t* out_blocked);
+
+/* ---- tracks ----------------------------------------------------------------------------------- */
+
+/* The part of a segment that lies in one tetrahedron. A segment is a closed one, as a ray is. */
+typedef struct vox_track_piece {
+    uint32_t segment; /* index of the segment */
+    vox_body body;
+    uint32_t tet;
+    uint32_t facet_in;  /* where the segment enters the tetrahedron, the lowest of several; VOX_NONE if the piece begins
+                           elsewhere */
+    uint32_t facet_out; /* where it leaves; VOX_NONE if the piece ends elsewhere */
+    uint32_t reserved;  /* 0 */
+    double t_in;        /* the doubles nearest to the true ones */
+    double t_out;
+} vox_track_piece;
+
+/* Finds the tetrahedra that segments pass through, sorted by (segment, body, t_in, t_out, tet). By the rule of
+ * vox_contact, every stretch of a segment belongs to each tetrahedron of a body that has it in its interior or, if there
+ * is none, to the lowest that has it in a facet or an edge. So the pieces in a body whose tetrahedra do not overlap have
+ * no gap inside the body and do not overlap: t_out of one is t_in of the next, bit for bit. Which tetrahedra a segment
+ * passes through is exact. A point is no piece: segments that only touch a tetrahedron, and those without length, have
+ * none there. */
+VOX_EXPERIMENTAL vox_result vox_locator_find_tracks(const vox_locator* locator, const vox_positions* from,
+                                                    const vox_positions* to, VOX_OPTIONAL const vox_query_desc* desc,
+                                                    vox_track_piece* pieces, uint64_t capacity, uint64_t* out_count);
 
 #ifdef __cplusplus
 }

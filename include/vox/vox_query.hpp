@@ -43,11 +43,20 @@ public:
             return vox_locator_find_point_hits(raw_, &at, &desc, out.data(), out.size(), count);
         });
     }
+    // vox_locator_locate: one location a point
+    std::vector<vox_location> locate(const points& at, const vox_query_desc& desc = any()) const {
+        std::vector<vox_location> found(static_cast<std::size_t>(at.count));
+        return locate(at, found, desc), found;
+    }
+    void locate(const points& at, span<vox_location> out, const vox_query_desc& desc = any()) const {
+        if (out.size() < at.count)
+            detail::refuse("locate: room for %llu locations, for %llu points", out.size(), at.count);
+        detail::check(vox_locator_locate(raw_, &at, &desc, out.data()));
+    }
     // vox_locator_find_closest: one hit a point
     std::vector<vox_closest_hit> find_closest(const points& at, const vox_query_desc& desc = any()) const {
         std::vector<vox_closest_hit> hits(static_cast<std::size_t>(at.count));
-        find_closest(at, hits, desc);
-        return hits;
+        return find_closest(at, hits, desc), hits;
     }
     void find_closest(const points& at, span<vox_closest_hit> out, const vox_query_desc& desc = any()) const {
         if (out.size() < at.count)
@@ -84,6 +93,18 @@ public:
         std::vector<std::uint8_t> blocked(static_cast<std::size_t>(from.count));
         detail::check(vox_locator_test_rays(raw_, &from, &to, &desc, blocked.data()));
         return blocked;
+    }
+    // vox_locator_find_tracks
+    std::vector<vox_track_piece> find_tracks(const points& from, const points& to,
+                                             const vox_query_desc& desc = any()) const {
+        return detail::collect<vox_track_piece>(
+            16, [&](auto... out) { return vox_locator_find_tracks(raw_, &from, &to, &desc, out...); });
+    }
+    std::uint64_t find_tracks(const points& from, const points& to, span<vox_track_piece> out,
+                              const vox_query_desc& desc = any()) const {
+        return detail::filled<std::uint64_t>([&](std::uint64_t* count) {
+            return vox_locator_find_tracks(raw_, &from, &to, &desc, out.data(), out.size(), count);
+        });
     }
 
 private:

@@ -60,21 +60,24 @@ Array<Vec3d> read_points(const vox_positions* given, const char* name, std::pmr:
 
 struct Asked {
     QueryMeshes bodies;
-    bool first_only;
+    bool first_only, extrapolate;
     double max_distance;
 };
 
 Asked read_desc(const vox_query_desc* given) {
     vox_query_desc desc{};
     if (given) desc = read_struct(given, "desc");
-    if (desc.flags & ~std::uint32_t{VOX_QUERY_FIRST_HIT})
+    if (desc.flags & ~std::uint32_t{VOX_QUERY_FIRST_HIT | VOX_QUERY_EXTRAPOLATE})
         refuse(format("desc.flags is 0x%" PRIx32 ", expected vox_query_flags", desc.flags));
     if (desc.reserved != 0) refuse(format("desc.reserved is %" PRIu32 ", expected 0", desc.reserved));
     if (!(desc.max_distance >= 0))
         refuse(format("desc.max_distance is %g, expected a number >= 0", desc.max_distance));
     set_default(desc.mask, UINT64_MAX);
     set_default(desc.max_distance, std::numeric_limits<double>::infinity());
-    return {{desc.mask, desc.excluded}, (desc.flags & VOX_QUERY_FIRST_HIT) != 0, desc.max_distance};
+    return {{desc.mask, desc.excluded},
+            (desc.flags & VOX_QUERY_FIRST_HIT) != 0,
+            (desc.flags & VOX_QUERY_EXTRAPOLATE) != 0,
+            desc.max_distance};
 }
 
 template <class Hit>
@@ -135,6 +138,18 @@ vox_result vox_locator_find_point_hits(const vox_locator* locator, const vox_pos
     });
 }
 
+vox_result vox_locator_locate(const vox_locator* locator, const vox_positions* points,
+                              const vox_query_desc* desc, vox_location* out_locations) {
+    return border(locator, "locator", [&] {
+        const Asked asked = read_desc(desc);
+        CallMemory memory;
+        const Array<Vec3d> at = read_points(points, "points", &memory);
+        if (!at.empty()) require(out_locations, "out_locations");
+        locator->queries.locations(at, asked.max_distance, asked.extrapolate, asked.bodies, &memory,
+                                   out_locations);
+    });
+}
+
 vox_result vox_locator_find_closest(const vox_locator* locator, const vox_positions* points,
                                     const vox_query_desc* desc, vox_closest_hit* out_hits) {
     return border(locator, "locator", [&] {
@@ -188,6 +203,22 @@ vox_result vox_locator_find_ray_hits(const vox_locator* locator, const vox_posit
             locator->queries.ray_hits(begins[i], ends[i], asked.bodies, asked.first_only, found);
             append(list, found, &vox_ray_hit::ray, i);
         }
+        *out_count = list.count();
+    });
+}
+
+vox_result vox_locator_find_tracks(const vox_locator* locator, const vox_positions* from,
+                                   const vox_positions* to, const vox_query_desc* desc,
+                                   vox_track_piece* pieces, uint64_t capacity, uint64_t* out_count) {
+    return border(locator, "locator", [&] {
+        if (capacity > 0) require(pieces, "pieces");
+        require(out_count, "out_count");
+        const Asked asked = read_desc(desc);
+        CallMemory memory;
+        const Array<Vec3d> begins = read_points(from, "from", &memory), ends = read_points(to, "to", &memory);
+        check_same_count(*from, "from", *to, "to");
+        HitList<vox_track_piece> list(pieces, capacity);
+        locator->queries.tracks(begins, ends, asked.bodies, &memory, list);
         *out_count = list.count();
     });
 }

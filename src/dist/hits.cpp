@@ -2,7 +2,7 @@
 #include "base/llu.hpp"
 #include "dist/rounds.hpp"
 
-#include "exact/predicates.hpp"
+#include "exact/accurate.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -55,7 +55,13 @@ vox_dist_contact between(std::uint64_t body_a, std::uint64_t vertex, const Vec3d
     const auto corner = [&](std::size_t c) {
         return part.positions.exact(part.tets[4 * std::size_t{hit.tet} + c]);
     };
-    std::ranges::copy(barycentric(p, corner(0), corner(1), corner(2), corner(3)), contact.weights);
+    PointBlock block;
+    AccurateWeights weights;
+    set(block.point, 0, p);
+    for (std::size_t c = 0; c < 4; ++c) set(block.corner[c], 0, corner(c));
+    fill_last_register(block, 1);
+    weigh_accurately(block, 1, true, weights);
+    for (std::size_t c = 0; c < 4; ++c) contact.weights[c] = weights.weight[c][0];
     contact.interior = interior;
     return contact;
 }

@@ -17,6 +17,21 @@ struct PointBlock {
     alignas(64) double corner[4][3][point_block];
 };
 
+inline void set(double (&to)[3][point_block], std::size_t i, const Vec3d& at) noexcept {
+    to[0][i] = at.x;
+    to[1][i] = at.y;
+    to[2][i] = at.z;
+}
+
+// Repeats the first point, and that many of its corners, after the last of `count`.
+inline void fill_last_register(PointBlock& block, std::size_t count, std::size_t corners = 4) noexcept {
+    for (std::size_t i = count; i % 8; ++i)
+        for (std::size_t a = 0; a < 3; ++a) {
+            block.point[a][i] = block.point[a][0];
+            for (std::size_t c = 0; c < corners; ++c) block.corner[c][a][i] = block.corner[c][a][0];
+        }
+}
+
 // corner_volumes() of each point of a block, with the same bits.
 struct VolumeBlock {
     alignas(64) double volume[4][point_block], error[4][point_block];

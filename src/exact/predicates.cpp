@@ -175,6 +175,43 @@ double scaled(const Integer& i, int bits) {
     return i.negative ? -value : value;
 }
 
+Integer shifted_left(const Integer& i, int bits) {
+    Integer result;
+    const int words = bits / 32, rest = bits % 32;
+    std::fill_n(result.word, words, 0u);
+    std::uint64_t carry = 0;
+    for (int w = 0; w < i.size; ++w, carry >>= 32) {
+        carry |= std::uint64_t{i.word[w]} << rest;
+        result.word[words + w] = static_cast<std::uint32_t>(carry);
+    }
+    result.word[words + i.size] = static_cast<std::uint32_t>(carry);
+    result.size = words + i.size + 1;
+    result.negative = i.negative;
+    result.trim();
+    return result;
+}
+
+// over / under, rounded to nearest once, for `under` other than 0: its 60 highest bits by long division, the
+// last of which is set if any lower bit is.
+double rounded_quotient(const Integer& over, const Integer& under) {
+    if (over.size == 0) return 0;
+    const int bits = bit_count(over) - bit_count(under);
+    Integer rest = shifted_left(over, std::max(-bits, 0));
+    const Integer by = shifted_left(under, std::max(bits, 0));
+    const bool negative = over.negative != under.negative;
+    std::uint64_t quotient = 0;
+    for (int i = 0; i < 60; ++i) {
+        quotient <<= 1;
+        if (!smaller_magnitude(rest, by)) {
+            subtract_magnitudes(rest, by, rest);
+            quotient |= 1;
+        }
+        rest = shifted_left(rest, 1);
+    }
+    const double value = std::ldexp(static_cast<double>(quotient | std::uint64_t{rest.size != 0}), bits - 59);
+    return negative ? -value : value;
+}
+
 // Coordinates that are 0 or at least 2^-240 are multiples of 2^-292. So the product of three differences of
 // them is 0 or at least 2^-876.
 bool products_may_underflow(const std::array<Vec3d, 4>& points) {
@@ -216,6 +253,22 @@ void scaled_volumes(const VolumePoints& points, std::span<const VolumeCorners> o
         const auto& [a, b, c, d] = of[i];
         volumes[i] = scaled(exact_volume(p[a], p[b], p[c], p[d]), bits);
     }
+}
+
+std::array<double, 4> exact_weights(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c,
+                                    const Vec3d& d) {
+    const auto q = in_units(std::array{a, b, c, d, p});
+    const Integer total = exact_volume(q[0], q[1], q[2], q[3]);
+    return {rounded_quotient(exact_volume(q[4], q[1], q[2], q[3]), total),
+            rounded_quotient(exact_volume(q[0], q[4], q[2], q[3]), total),
+            rounded_quotient(exact_volume(q[0], q[1], q[4], q[3]), total),
+            rounded_quotient(exact_volume(q[0], q[1], q[2], q[4]), total)};
+}
+
+double exact_crossing(const Vec3d& from, const Vec3d& to, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+    const auto q = in_units(std::array{a, b, c, from, to});
+    const Integer before = exact_volume(q[0], q[1], q[2], q[3]);
+    return rounded_quotient(before, before - exact_volume(q[0], q[1], q[2], q[4]));
 }
 
 std::array<double, 4> barycentric(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c,

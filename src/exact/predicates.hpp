@@ -186,4 +186,11 @@ inline constexpr double barycentric_error = 0x1p-44;
 std::array<double, 4> barycentric(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c,
                                   const Vec3d& d);
 
+// Barycentric coordinates of any point, each rounded to double once. Slow: see exact/accurate.hpp.
+std::array<double, 4> exact_weights(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c,
+                                    const Vec3d& d);
+
+// Where the segment crosses the plane of abc, from 0 to 1, rounded once. One of its ends may be on the plane.
+double exact_crossing(const Vec3d& from, const Vec3d& to, const Vec3d& a, const Vec3d& b, const Vec3d& c);
+
 } // namespace vox

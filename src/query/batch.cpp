@@ -108,27 +108,15 @@ void Queries::Batch::take(std::span<const fast::Finding> findings) {
 void Queries::Batch::locate_later(std::uint32_t point, std::uint32_t leaf, std::uint32_t place) {
     const std::size_t i = unlocated_count_++;
     unlocated_[i] = {point, mesh_, leaf, place};
-    const Vec3d& p = points_[point];
-    block_.point[0][i] = p.x;
-    block_.point[1][i] = p.y;
-    block_.point[2][i] = p.z;
-    for (std::size_t c = 0; c < 4; ++c) {
-        const Vec3d& q = tets_->corner(place, c);
-        block_.corner[c][0][i] = q.x;
-        block_.corner[c][1][i] = q.y;
-        block_.corner[c][2][i] = q.z;
-    }
+    set(block_.point, i, points_[point]);
+    for (std::size_t c = 0; c < 4; ++c) set(block_.corner[c], i, tets_->corner(place, c));
     if (unlocated_count_ == point_block) locate_all();
 }
 
 void Queries::Batch::locate_all() {
     const std::size_t count = std::exchange(unlocated_count_, 0);
     if (count == 0) return;
-    for (std::size_t i = count; i % 8; ++i) // fill the last register
-        for (std::size_t a = 0; a < 3; ++a) {
-            block_.point[a][i] = block_.point[a][0];
-            for (std::size_t c = 0; c < 4; ++c) block_.corner[c][a][i] = block_.corner[c][a][0];
-        }
+    fill_last_register(block_, count);
     std::uint64_t exact_tests = 0;
     VolumeBlock volumes;
     const CertainLocations certain = locate(block_, count, volumes);

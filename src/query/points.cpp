@@ -8,6 +8,7 @@
 #include "base/boxes.hpp"
 #include "base/rounding.hpp"
 #include "exact/predicates.hpp"
+#include "query/weigher.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -84,6 +85,16 @@ void Queries::for_found(std::span<const Vec3d> points, QueryMeshes which, std::p
     }
 }
 
+void Queries::find_all(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
+                       Array<PointHit>& hits) const {
+    for_found(points, which, memory, [&](std::size_t point, std::span<const PointHit> found) {
+        for (PointHit hit : found) {
+            hit.point = static_cast<std::uint32_t>(point);
+            hits.push_back(hit);
+        }
+    });
+}
+
 void Queries::points(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
                      HitList<vox_point_hit>& hits) const {
     for_found(points, which, memory, [&](std::size_t point, std::span<const PointHit> found) {
@@ -103,6 +114,25 @@ void Queries::points(std::span<const Vec3d> points, QueryMeshes which, std::pmr:
                               out->weights);
         }
     });
+}
+
+void Queries::locations(std::span<const Vec3d> points, double max_distance, bool extrapolate,
+                        QueryMeshes which, std::pmr::memory_resource* memory, vox_location* out) const {
+    std::fill_n(out, points.size(), vox_location{});
+    std::size_t located = 0;
+    {
+        Weigher weigher(Weigher::Of::inside);
+        for_found(points, which, memory, [&](std::size_t point, std::span<const PointHit> found) {
+            vox_location& location = out[point];
+            if (location.state != VOX_LOCATION_NONE) return; // in a lower body
+            const auto interior = std::ranges::find(found, true, &PointHit::interior);
+            const PointHit& hit = interior != found.end() ? *interior : found[0];
+            location = {meshes_[hit.mesh].id, hit.tet, VOX_LOCATION_INSIDE, 0, {}, 0};
+            weigher.add(points[point], tets_of(leaves_[hit.leaf]), hit.place, location.weights);
+            ++located;
+        });
+    }
+    if (located < points.size()) locate_outside(points, max_distance, extrapolate, which, memory, out);
 }
 
 void Queries::count_inside(std::span<const Vec3d> points, QueryMeshes which,

@@ -12,6 +12,8 @@
 
 #include <vox/vox_query.h>
 
+#include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -32,6 +34,24 @@ struct QueryBody {
 struct QueryMeshes {
     std::uint64_t mask;
     vox_body excluded;
+};
+
+// An answer that any thread may find.
+class LazyAnswer {
+public:
+    LazyAnswer() = default;
+    LazyAnswer(const LazyAnswer& other) noexcept : state_(other.state_.load()) {}
+    LazyAnswer& operator=(const LazyAnswer& other) noexcept { return state_ = other.state_.load(), *this; }
+
+    template <class Find>
+    bool get(bool may_find, Find&& find) {
+        std::uint8_t state = state_.load(std::memory_order_relaxed);
+        if (state == 0 && may_find) state_.store(state = find() ? 2 : 1, std::memory_order_relaxed);
+        return state == 2;
+    }
+
+private:
+    std::atomic<std::uint8_t> state_ = 0; // 1: no, 2: yes
 };
 
 // A caller's list: the first `capacity` hits are kept, all are counted.
@@ -62,6 +82,9 @@ public:
     // Hits of points[0], points[1], ... in canonical order; `memory` is for temporary use.
     void points(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
                 HitList<vox_point_hit>& hits) const;
+    // One location a point; `memory` is for temporary use.
+    void locations(std::span<const Vec3d> points, double max_distance, bool extrapolate, QueryMeshes which,
+                   std::pmr::memory_resource* memory, vox_location* out) const;
     // One hit a point; `memory` is for temporary use.
     void closest_points(std::span<const Vec3d> points, double max_distance, QueryMeshes which,
                         std::pmr::memory_resource* memory, vox_closest_hit* hits) const;
@@ -72,6 +95,9 @@ public:
                   Array<vox_ray_hit>& hits) const;
     // True if a tetrahedron with a volume is on the ray.
     bool blocks(const Vec3d& from, const Vec3d& to, QueryMeshes which) const noexcept;
+    // The pieces of segments in canonical order; `memory` is for temporary use.
+    void tracks(std::span<const Vec3d> from, std::span<const Vec3d> to, QueryMeshes which,
+                std::pmr::memory_resource* memory, HitList<vox_track_piece>& pieces) const;
 
 private:
     struct Mesh {
@@ -83,6 +109,7 @@ private:
         bool rounded;                                    // floats_ are not exact
         Box box = empty_box;
         TileSize tile_size{};
+        mutable LazyAnswer walkable{}; // see is_walkable()
     };
     // A tile of a mesh, that is, up to 64 tetrahedra that are close together.
     struct Leaf {
@@ -100,11 +127,16 @@ private:
         std::uint32_t leaf, place; // of the tetrahedron in leaves_, and in the tile
     };
     class Batch;
+    class Weigher;
+    class Tracker;
     using FacetKey = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>; // mesh in meshes_, tet, facet
     struct ClosestFacet;
 
     void copy_positions(std::span<const QueryBody> bodies, std::size_t begin, std::size_t end) noexcept;
     void make_boxes(std::uint32_t leaf) noexcept;
+    // True if the two tetrahedra at each facet are certainly on opposite sides, so that from one to the next
+    // on a segment there is only one way, forwards. Looked up if it is known, or `may_find`.
+    bool is_walkable(const Mesh& mesh, bool may_find, std::pmr::memory_resource* memory) const;
     static bool wants(const Mesh& mesh, QueryMeshes which) noexcept {
         return (mesh.category & which.mask) != 0 && mesh.id != which.excluded;
     }
@@ -119,6 +151,9 @@ private:
     template <class Visit>
     void for_found(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
                    Visit&& visit) const;
+    // Appends all of them.
+    void find_all(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
+                  Array<PointHit>& hits) const;
     static void sort_found(Array<PointHit>& found, std::size_t points);
     // Sets the signs of distances and the counts of meshes that contain the points in `hits`.
     void count_inside(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
@@ -132,6 +167,13 @@ private:
     template <class Bound, class Visit>
     void visit_facets(QueryMeshes which, const double& most, const Bound& bound, Visit&& visit) const;
     void find_closest(const Vec3d& p, QueryMeshes which, ClosestFacet& closest) const noexcept;
+    // Calls answer(index, closest facet) for each point, in any order.
+    template <class Answer>
+    void for_closest(std::span<const Vec3d> points, double max_distance, QueryMeshes which,
+                     std::pmr::memory_resource* memory, Answer&& answer) const;
+    // For the points that were not located.
+    void locate_outside(std::span<const Vec3d> points, double max_distance, bool extrapolate,
+                        QueryMeshes which, std::pmr::memory_resource* memory, vox_location* out) const;
 
     Array<Mesh> meshes_;    // ascending by id
     Array<Vec3d> vertices_; // mesh after mesh
@@ -158,6 +200,9 @@ public:
     std::uint32_t index(std::size_t i) const noexcept { return tets_.tiles.tets[tile_.first_tet + i]; }
     // Bit f is set when facet f is on the surface.
     unsigned facets(std::size_t i) const noexcept { return tets_.facets[tile_.first_tet + i]; }
+    TetLink across(std::size_t i, std::size_t facet) const noexcept {
+        return tets_.links[tile_.first_tet + i][facet];
+    }
     std::uint32_t vertex(std::size_t i, std::size_t corner) const noexcept {
         return tets_.tiles.vertices[tile_.first_vertex + corners_[corner * tile_size + i]];
     }

@@ -7,6 +7,7 @@
 #include "exact/closest_point.hpp"
 #include "exact/facet_normal.hpp"
 #include "query/facets.hpp"
+#include "query/weigher.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -90,15 +91,16 @@ void Queries::find_closest(const Vec3d& p, QueryMeshes which, ClosestFacet& clos
         });
 }
 
-void Queries::closest_points(std::span<const Vec3d> points, double max_distance, QueryMeshes which,
-                             std::pmr::memory_resource* memory, vox_closest_hit* hits) const {
+template <class Answer>
+void Queries::for_closest(std::span<const Vec3d> points, double max_distance, QueryMeshes which,
+                          std::pmr::memory_resource* memory, Answer&& answer) const {
     const double most = max_distance * max_distance;
     // No bound is greater than the distance, so a search finds the least facet by (distance, key). Its first
     // bound, and so the order of points, changes only its cost.
     Array<std::uint64_t> order(memory);
     if (leaves_.size() >= least_leaves_to_sort) order = order_along_curve(points, max_distance, memory);
     ClosestFacet closest{.squared = most};
-    const auto answer = [&](std::size_t i) {
+    const auto search = [&](std::size_t i) {
         const Vec3d& p = points[i];
         const ClosestFacet before = closest;
         closest = {.squared = most};
@@ -108,6 +110,17 @@ void Queries::closest_points(std::span<const Vec3d> points, double max_distance,
                               std::get<2>(before.key), squared_distance_bound(p, tets.box(before.place)));
         }
         find_closest(p, which, closest);
+        answer(i, closest);
+    };
+    if (order.empty())
+        for (std::size_t i = 0; i < points.size(); ++i) search(i);
+    for (const std::uint64_t place : order) search(static_cast<std::uint32_t>(place));
+}
+
+void Queries::closest_points(std::span<const Vec3d> points, double max_distance, QueryMeshes which,
+                             std::pmr::memory_resource* memory, vox_closest_hit* hits) const {
+    const auto answer = [&](std::size_t i, const ClosestFacet& closest) {
+        const Vec3d& p = points[i];
         vox_closest_hit hit{};
         if (closest.any) {
             const auto [mesh, tet, facet] = closest.key;
@@ -125,10 +138,35 @@ void Queries::closest_points(std::span<const Vec3d> points, double max_distance,
         }
         hits[i] = hit;
     };
-    if (order.empty())
-        for (std::size_t i = 0; i < points.size(); ++i) answer(i);
-    for (const std::uint64_t place : order) answer(static_cast<std::uint32_t>(place));
+    for_closest(points, max_distance, which, memory, answer);
     count_inside(points, which, memory, hits);
+}
+
+void Queries::locate_outside(std::span<const Vec3d> points, double max_distance, bool extrapolate,
+                             QueryMeshes which, std::pmr::memory_resource* memory, vox_location* out) const {
+    Array<std::uint32_t> index(memory);
+    Array<Vec3d> at(memory);
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+        if (out[i].state != VOX_LOCATION_NONE) continue;
+        index.push_back(i);
+        at.push_back(points[i]);
+    }
+    Weigher closest_weigher(Weigher::Of::closest), weigher(Weigher::Of::any);
+    for_closest(at, max_distance, which, memory, [&](std::size_t i, const ClosestFacet& closest) {
+        if (!closest.any) return;
+        const auto [mesh, tet, facet] = closest.key;
+        const LeafTets tets = tets_of(leaves_[closest.leaf]);
+        const std::size_t t = closest.place;
+        vox_location& location = out[index[i]];
+        location = {meshes_[mesh].id, tet, VOX_LOCATION_OUTSIDE, 0, {}, std::sqrt(closest.squared)};
+        std::uint64_t exact_tests = 0;
+        if (extrapolate && orientation(tets.corner(t, 0), tets.corner(t, 1), tets.corner(t, 2),
+                                       tets.corner(t, 3), exact_tests) != 0)
+            return weigher.add(at[i], tets, t, location.weights);
+        const auto weights = normalised(closest.seen.at.weight);
+        for (std::size_t c = 0; c < 3; ++c) location.weights[facet_corners[facet][c]] = weights[c];
+        closest_weigher.add(at[i], tets, t, facet, location.weights);
+    });
 }
 
 } // namespace vox

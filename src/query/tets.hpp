@@ -2,21 +2,40 @@
 #pragma once
 
 #include "base/array.hpp"
+#include "base/prefetch.hpp"
 #include "mesh/tiles.hpp"
 #include "mesh/topology.hpp"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <memory_resource>
 
 namespace vox {
 
+// The tetrahedron across a facet.
+struct TetLink {
+    std::uint32_t tile : 23, place : 6; // in the tile
+    std::uint32_t facet : 2;            // the same facet, as that tetrahedron's
+    std::uint32_t turned : 1;           // its corners are in the other order: volumes of one sign overlap
+    static constexpr std::uint32_t no_tile = 0x7fffff;
+};
+
 // Never changed, so that all locators of the same tetrahedra share it.
 struct QueryTets {
-    explicit QueryTets(std::pmr::memory_resource* memory) noexcept : tiles(memory), facets(memory) {}
+    explicit QueryTets(std::pmr::memory_resource* memory) noexcept
+        : tiles(memory), facets(memory), links(memory) {}
 
     Tiles tiles;                // those that hold tetrahedra: tiles, corners, tets and vertices
     Array<std::uint8_t> facets; // for each of tiles.tets, a bit for each facet (facet_corners) on the surface
+    // For each facet of each of tiles.tets what is across it. Empty if some facets have more than two
+    // tetrahedra, a tetrahedron is there twice, or there are too many.
+    Array<std::array<TetLink, 4>> links;
+
+    void prefetch(const TetLink& tet) const noexcept {
+        if (tet.tile != TetLink::no_tile)
+            vox::prefetch(links.data() + tiles.tiles[tet.tile].first_tet + tet.place);
+    }
 };
 
 // Throws what the memory throws.

@@ -122,8 +122,12 @@ void check_locate(Run& run, const vox_locator* locator, vox_dist_scene* scene, s
         }
         if ((found[i].rank == VOX_NONE) != !first)
             return note(run, "a point is found, or not, unlike in one grid");
-        if (first && (found[i].body != body || found[i].tet != first->tet ||
-                      !std::equal(first->weights, first->weights + 4, found[i].weights)))
+        if (!first) continue;
+        vox_location location; // in the lowest body by id, which may be another
+        (void)vox_locator_locate(locator, &at, nullptr, &location);
+        const bool same_body = location.body == first->body;
+        if (found[i].body != body || found[i].tet != first->tet ||
+            (same_body && !std::equal(location.weights, location.weights + 4, found[i].weights)))
             return note(run, "a point is in another tetrahedron than in one grid");
     }
 }

@@ -115,7 +115,7 @@ inline std::vector<vox_dist_contact> global_contacts(const Scene& scene, const v
         const vox_positions of_b = positions_of(hit.body_b);
         const auto corner = [&](std::size_t c) { return position_of(of_b, tet[c]); };
         const vox::Vec3d vertex = position_of(positions_of(hit.body_a), contact.vertex);
-        const auto weights = vox::barycentric(vertex, corner(0), corner(1), corner(2), corner(3));
+        const auto weights = vox::exact_weights(vertex, corner(0), corner(1), corner(2), corner(3));
         std::copy(weights.begin(), weights.end(), contact.weights);
         contact.interior = contacts.interiors[i];
     }

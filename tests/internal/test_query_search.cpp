@@ -190,8 +190,8 @@ void check_closest(const Asked& asked, const std::vector<Vec3d>& points) {
     }
 }
 
-// So many points that they are asked another way: hits and closest points are those of each point alone, all
-// bits.
+// So many points that they are asked another way: hits, closest points and locations are those of each point
+// alone, all bits.
 void check_together(const vox_locator* locator, const std::vector<Vec3d>& points, std::uint64_t mask = 0) {
     vox_query_desc desc = query_of(mask, VOX_NULL_BODY);
     desc.max_distance = 1;
@@ -199,7 +199,9 @@ void check_together(const vox_locator* locator, const std::vector<Vec3d>& points
     const std::vector<vox_point_hit> together = hits_of(locator, at, &desc);
     std::vector<vox_point_hit> singly;
     std::vector<vox_closest_hit> closest(points.size());
+    std::vector<vox_location> located(points.size());
     ck_ok(vox_locator_find_closest(locator, &at, &desc, closest.data()));
+    ck_ok(vox_locator_locate(locator, &at, &desc, located.data()));
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         for (vox_point_hit& hit : hits_of(locator, only(points[i]), &desc)) {
             hit.point = i;
@@ -208,6 +210,10 @@ void check_together(const vox_locator* locator, const std::vector<Vec3d>& points
         if (i % 16 == 0) {
             const vox_closest_hit alone = closest_to(locator, &points[i].x, &desc);
             ck_assert_mem_eq(&alone, &closest[i], sizeof alone);
+            vox_location location;
+            const vox_positions at_one = only(points[i]);
+            ck_ok(vox_locator_locate(locator, &at_one, &desc, &location));
+            ck_assert_mem_eq(&location, &located[i], sizeof location);
         }
     }
     check_equal(together, singly);

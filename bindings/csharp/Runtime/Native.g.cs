@@ -145,6 +145,20 @@ namespace Voxtet
     {
         /// <summary>vox_locator_find_ray_hits: report only the first hit of each ray</summary>
         FirstHit = 1,
+        /// <summary>vox_locator_locate: for a point outside, compute the weights of the point itself, some of which are
+        /// negative, rather than of the closest point</summary>
+        Extrapolate = 2,
+    }
+
+    public enum LocationState : int
+    {
+        /// <summary>no body is within max_distance; the other fields are 0</summary>
+        None = 0,
+        /// <summary>the closed tetrahedron contains the point</summary>
+        Inside = 1,
+        /// <summary>no tetrahedron contains the point; this one has the closest point of all surfaces, as
+        /// vox_locator_find_closest finds it</summary>
+        Outside = 2,
     }
 
     public enum Side : int
@@ -893,8 +907,25 @@ namespace Voxtet
         public uint excluded;
         /// <summary>0</summary>
         public uint reserved;
-        /// <summary>vox_locator_find_closest: no further than this, in the caller's unit; 0: any distance</summary>
+        /// <summary>vox_locator_locate and vox_locator_find_closest: no further than this, in the caller's unit; 0: any
+        /// distance</summary>
         public double max_distance;
+    }
+
+    /// <summary>Where a point is, and the weights that interpolate a field there.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 56)]
+    public struct Location
+    {
+        public uint body;
+        public uint tet;
+        public LocationState state;
+        /// <summary>0</summary>
+        public uint reserved;
+        /// <summary>Of the tetrahedron's corners, for the point or, if it is outside, for the closest point;
+        /// VOX_QUERY_EXTRAPOLATE asks for the point.</summary>
+        public Double4 weights;
+        /// <summary>to the closest point, in the caller's unit; 0 inside</summary>
+        public double distance;
     }
 
     /// <summary>A tetrahedron that contains a point.</summary>
@@ -961,6 +992,26 @@ namespace Voxtet
         public double t;
         /// <summary>of these vertices, in [0, 1]</summary>
         public Double3 weights;
+    }
+
+    /// <summary>The part of a segment that lies in one tetrahedron.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 40)]
+    public struct TrackPiece
+    {
+        /// <summary>index of the segment</summary>
+        public uint segment;
+        public uint body;
+        public uint tet;
+        /// <summary>where the segment enters the tetrahedron, the lowest of several; VOX_NONE if the piece begins
+        /// elsewhere</summary>
+        public uint facet_in;
+        /// <summary>where it leaves; VOX_NONE if the piece ends elsewhere</summary>
+        public uint facet_out;
+        /// <summary>0</summary>
+        public uint reserved;
+        /// <summary>the doubles nearest to the true ones</summary>
+        public double t_in;
+        public double t_out;
     }
 
     /// <summary>A point of a cost curve.</summary>
@@ -2003,6 +2054,11 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_locator_get_user_data(IntPtr locator, uint body, ulong* out_user_data);
 
+        /// <summary>Locates points: out_locations[i] is for point i, and depends on no other point.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_locator_locate(IntPtr locator, Positions* points, QueryDesc* desc, Location*
+            out_locations);
+
         /// <summary>Finds the tetrahedra that contain points, by the rule of vox_contact: every tetrahedron of a body
         /// that has the point in its interior or, if there is none, the lowest that has it on its boundary.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2030,6 +2086,12 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_locator_test_rays(IntPtr locator, Positions* from, Positions* to, QueryDesc*
             desc, byte* out_blocked);
+
+        /// <summary>Finds the tetrahedra that segments pass through, sorted by (segment, body, t_in, t_out,
+        /// tet).</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_locator_find_tracks(IntPtr locator, Positions* from, Positions* to, QueryDesc*
+            desc, TrackPiece* pieces, ulong capacity, ulong* out_count);
 
         /// <summary>Suggests the cell size with the least cost for these meshes as they are now.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2560,6 +2622,19 @@ namespace Voxtet
             entries.Add(Entry("vox_query_desc.max_distance", (byte*)&s.max_distance - begin, 24, 24));
         }
 
+        static void AddLocation(List<LayoutEntry> entries)
+        {
+            Location s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_location", sizeof(Location), 56, 56));
+            entries.Add(Entry("vox_location.body", (byte*)&s.body - begin, 0, 0));
+            entries.Add(Entry("vox_location.tet", (byte*)&s.tet - begin, 4, 4));
+            entries.Add(Entry("vox_location.state", (byte*)&s.state - begin, 8, 8));
+            entries.Add(Entry("vox_location.reserved", (byte*)&s.reserved - begin, 12, 12));
+            entries.Add(Entry("vox_location.weights", (byte*)&s.weights - begin, 16, 16));
+            entries.Add(Entry("vox_location.distance", (byte*)&s.distance - begin, 48, 48));
+        }
+
         static void AddPointHit(List<LayoutEntry> entries)
         {
             PointHit s;
@@ -2612,6 +2687,21 @@ namespace Voxtet
             entries.Add(Entry("vox_ray_hit.face", (byte*)&s.face - begin, 20, 20));
             entries.Add(Entry("vox_ray_hit.t", (byte*)&s.t - begin, 32, 32));
             entries.Add(Entry("vox_ray_hit.weights", (byte*)&s.weights - begin, 40, 40));
+        }
+
+        static void AddTrackPiece(List<LayoutEntry> entries)
+        {
+            TrackPiece s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_track_piece", sizeof(TrackPiece), 40, 40));
+            entries.Add(Entry("vox_track_piece.segment", (byte*)&s.segment - begin, 0, 0));
+            entries.Add(Entry("vox_track_piece.body", (byte*)&s.body - begin, 4, 4));
+            entries.Add(Entry("vox_track_piece.tet", (byte*)&s.tet - begin, 8, 8));
+            entries.Add(Entry("vox_track_piece.facet_in", (byte*)&s.facet_in - begin, 12, 12));
+            entries.Add(Entry("vox_track_piece.facet_out", (byte*)&s.facet_out - begin, 16, 16));
+            entries.Add(Entry("vox_track_piece.reserved", (byte*)&s.reserved - begin, 20, 20));
+            entries.Add(Entry("vox_track_piece.t_in", (byte*)&s.t_in - begin, 24, 24));
+            entries.Add(Entry("vox_track_piece.t_out", (byte*)&s.t_out - begin, 32, 32));
         }
 
         static void AddCostSample(List<LayoutEntry> entries)
@@ -3205,10 +3295,12 @@ namespace Voxtet
             AddLog(entries);
             AddTaskSystem(entries);
             AddQueryDesc(entries);
+            AddLocation(entries);
             AddPointHit(entries);
             AddClosestHit(entries);
             AddBoxHit(entries);
             AddRayHit(entries);
+            AddTrackPiece(entries);
             AddCostSample(entries);
             AddCostTerm(entries);
             AddCellSizeRule(entries);

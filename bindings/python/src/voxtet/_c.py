@@ -104,6 +104,13 @@ class LogLevel(enum.IntEnum):
 
 class QueryFlags(enum.IntFlag):
     FIRST_HIT = 1
+    EXTRAPOLATE = 2
+
+
+class LocationState(enum.IntEnum):
+    NONE = 0
+    INSIDE = 1
+    OUTSIDE = 2
 
 
 class Side(enum.IntEnum):
@@ -555,6 +562,23 @@ dtypes["vox_query_desc"] = dtype({
     "itemsize": 32})
 
 
+class vox_location(Structure):
+    _fields_ = [
+        ("body", c_uint32),
+        ("tet", c_uint32),
+        ("state", c_int32),
+        ("reserved", c_uint32),
+        ("weights", c_double * 4),
+        ("distance", c_double),
+    ]
+
+dtypes["vox_location"] = dtype({
+    "names": ["body", "tet", "state", "reserved", "weights", "distance"],
+    "formats": ["u4", "u4", "i4", "u4", ("f8", (4,)), "f8"],
+    "offsets": [0, 4, 8, 12, 16, 48],
+    "itemsize": 56})
+
+
 class vox_point_hit(Structure):
     _fields_ = [
         ("point", c_uint32),
@@ -623,6 +647,25 @@ dtypes["vox_ray_hit"] = dtype({
     "formats": ["u4", "u4", "u4", "u4", "i4", ("u4", (3,)), "f8", ("f8", (3,))],
     "offsets": [0, 4, 8, 12, 16, 20, 32, 40],
     "itemsize": 64})
+
+
+class vox_track_piece(Structure):
+    _fields_ = [
+        ("segment", c_uint32),
+        ("body", c_uint32),
+        ("tet", c_uint32),
+        ("facet_in", c_uint32),
+        ("facet_out", c_uint32),
+        ("reserved", c_uint32),
+        ("t_in", c_double),
+        ("t_out", c_double),
+    ]
+
+dtypes["vox_track_piece"] = dtype({
+    "names": ["segment", "body", "tet", "facet_in", "facet_out", "reserved", "t_in", "t_out"],
+    "formats": ["u4", "u4", "u4", "u4", "u4", "u4", "f8", "f8"],
+    "offsets": [0, 4, 8, 12, 16, 20, 24, 32],
+    "itemsize": 40})
 
 
 class vox_cost_sample(Structure):
@@ -1256,6 +1299,7 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_locator_release": (None, (c_void_p,)),
         "vox_locator_get_epoch": (vox_result, (c_void_p, POINTER(c_uint64))),
         "vox_locator_get_user_data": (vox_result, (c_void_p, c_uint32, POINTER(c_uint64))),
+        "vox_locator_locate": (vox_result, (c_void_p, POINTER(vox_positions), POINTER(vox_query_desc), c_void_p)),
         "vox_locator_find_point_hits": (vox_result, (c_void_p, POINTER(vox_positions), POINTER(vox_query_desc),
             c_void_p, c_uint64, POINTER(c_uint64))),
         "vox_locator_find_closest": (vox_result, (c_void_p, POINTER(vox_positions), POINTER(vox_query_desc), c_void_p)),
@@ -1265,6 +1309,8 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
             POINTER(vox_query_desc), c_void_p, c_uint64, POINTER(c_uint64))),
         "vox_locator_test_rays": (vox_result, (c_void_p, POINTER(vox_positions), POINTER(vox_positions),
             POINTER(vox_query_desc), c_void_p)),
+        "vox_locator_find_tracks": (vox_result, (c_void_p, POINTER(vox_positions), POINTER(vox_positions),
+            POINTER(vox_query_desc), c_void_p, c_uint64, POINTER(c_uint64))),
     },
     "vox_cell_size": {
         "vox_suggest_cell_size": (vox_result, (POINTER(vox_cell_size_desc), c_void_p, c_uint64,

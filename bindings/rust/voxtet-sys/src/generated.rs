@@ -158,6 +158,18 @@ pub const VOX_LOG_WARNING: vox_log_level = 1;
 pub type vox_query_flags = u32;
 /// vox_locator_find_ray_hits: report only the first hit of each ray
 pub const VOX_QUERY_FIRST_HIT: vox_query_flags = 1;
+/// vox_locator_locate: for a point outside, compute the weights of the point itself, some of which are negative, rather
+/// than of the closest point
+pub const VOX_QUERY_EXTRAPOLATE: vox_query_flags = 2;
+
+pub type vox_location_state = i32;
+/// no body is within max_distance; the other fields are 0
+pub const VOX_LOCATION_NONE: vox_location_state = 0;
+/// the closed tetrahedron contains the point
+pub const VOX_LOCATION_INSIDE: vox_location_state = 1;
+/// no tetrahedron contains the point; this one has the closest point of all surfaces, as vox_locator_find_closest finds
+/// it
+pub const VOX_LOCATION_OUTSIDE: vox_location_state = 2;
 
 pub type vox_side = i32;
 /// the facet's tetrahedron has no volume
@@ -759,8 +771,28 @@ pub struct vox_query_desc {
     pub excluded: vox_body,
     /// 0
     pub reserved: u32,
-    /// vox_locator_find_closest: no further than this, in the caller's unit; 0: any distance
+    /// vox_locator_locate and vox_locator_find_closest: no further than this, in the caller's unit; 0: any distance
     pub max_distance: f64,
+}
+
+/// Where a point is, and the weights that interpolate a field there. If several tetrahedra contain the point, this is
+/// one of the lowest body: the lowest that has the point in its interior or, if there is none, the lowest that has it
+/// on its boundary.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_location {
+    pub body: vox_body,
+    pub tet: u32,
+    pub state: vox_location_state,
+    /// 0
+    pub reserved: u32,
+    /// Of the tetrahedron's corners, for the point or, if it is outside, for the closest point; VOX_QUERY_EXTRAPOLATE
+    /// asks for the point. Each is rounded from the true weight once, or off by 2^-58 more. Exceptions are the closest
+    /// points of facets thinner than 2^-20 of their length or with an edge below 2^-40 of the distance, and a flat
+    /// tetrahedron is not extrapolated.
+    pub weights: [f64; 4],
+    /// to the closest point, in the caller's unit; 0 inside
+    pub distance: f64,
 }
 
 /// A tetrahedron that contains a point.
@@ -829,6 +861,25 @@ pub struct vox_ray_hit {
     pub t: f64,
     /// of these vertices, in [0, 1]
     pub weights: [f64; 3],
+}
+
+/// The part of a segment that lies in one tetrahedron. A segment is a closed one, as a ray is.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_track_piece {
+    /// index of the segment
+    pub segment: u32,
+    pub body: vox_body,
+    pub tet: u32,
+    /// where the segment enters the tetrahedron, the lowest of several; VOX_NONE if the piece begins elsewhere
+    pub facet_in: u32,
+    /// where it leaves; VOX_NONE if the piece ends elsewhere
+    pub facet_out: u32,
+    /// 0
+    pub reserved: u32,
+    /// the doubles nearest to the true ones
+    pub t_in: f64,
+    pub t_out: f64,
 }
 
 /// A point of a cost curve.
@@ -1847,7 +1898,7 @@ extern "C" {
     /// Takes a locator of the grid as it is now, and releases what *locator held before, if anything. The caller owns
     /// *locator and releases it with vox_locator_release. The first call after a mesh was inserted or edited takes
     /// longer. If the call fails, *locator stays as it is. A locator uses the grid's memory, within its byte budget:
-    /// about 36 bytes a vertex and 28 a tetrahedron, and 12 a tetrahedron that all locators of a grid share. The memory
+    /// about 36 bytes a vertex and 28 a tetrahedron, and 28 a tetrahedron that all locators of a grid share. The memory
     /// of released locators is used again, so that a program that takes one in every frame soon allocates nothing;
     /// vox_grid_clear and vox_grid_destroy return it. If a locator outlives its grid, its last release returns its
     /// memory, on the thread that calls. Errors: INVALID_STATE (a mesh without positions), NON_FINITE, LIMIT,
@@ -1870,6 +1921,15 @@ extern "C" {
         locator: *const vox_locator,
         body: vox_body,
         out_user_data: *mut u64,
+    ) -> vox_result;
+    /// Locates points: out_locations[i] is for point i, and depends on no other point. No point inside a mesh is
+    /// missed, on whatever facet, edge or vertex it is. Many points in one call are located several times as fast as
+    /// one by one, whatever their order. Errors: also INVALID_ARGUMENT (a negative or NaN max_distance).
+    pub fn vox_locator_locate(
+        locator: *const vox_locator,
+        points: *const vox_positions,
+        desc: *const vox_query_desc,
+        out_locations: *mut vox_location,
     ) -> vox_result;
     /// Finds the tetrahedra that contain points, by the rule of vox_contact: every tetrahedron of a body that has the
     /// point in its interior or, if there is none, the lowest that has it on its boundary. Sorted by (point, body,
@@ -1924,6 +1984,21 @@ extern "C" {
         to: *const vox_positions,
         desc: *const vox_query_desc,
         out_blocked: *mut u8,
+    ) -> vox_result;
+    /// Finds the tetrahedra that segments pass through, sorted by (segment, body, t_in, t_out, tet). By the rule of
+    /// vox_contact, every stretch of a segment belongs to each tetrahedron of a body that has it in its interior or, if
+    /// there is none, to the lowest that has it in a facet or an edge. So the pieces in a body whose tetrahedra do not
+    /// overlap have no gap inside the body and do not overlap: t_out of one is t_in of the next, bit for bit. Which
+    /// tetrahedra a segment passes through is exact. A point is no piece: segments that only touch a tetrahedron, and
+    /// those without length, have none there.
+    pub fn vox_locator_find_tracks(
+        locator: *const vox_locator,
+        from: *const vox_positions,
+        to: *const vox_positions,
+        desc: *const vox_query_desc,
+        pieces: *mut vox_track_piece,
+        capacity: u64,
+        out_count: *mut u64,
     ) -> vox_result;
 }
 
@@ -2342,6 +2417,8 @@ layouts! {
     vox_task_system: size [24, 12], alignment [8, 4], { enqueue: [0, 0], finish: [8, 4], user: [16, 8] }
     vox_query_desc: size [32, 32], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], mask: [8, 8],
         excluded: [16, 16], reserved: [20, 20], max_distance: [24, 24] }
+    vox_location: size [56, 56], alignment [8, 8], { body: [0, 0], tet: [4, 4], state: [8, 8], reserved: [12, 12],
+        weights: [16, 16], distance: [48, 48] }
     vox_point_hit: size [48, 48], alignment [8, 8], { point: [0, 0], body: [4, 4], tet: [8, 8], reserved: [12, 12],
         weights: [16, 16] }
     vox_closest_hit: size [112, 112], alignment [8, 8], { body: [0, 0], tet: [4, 4], facet: [8, 8], inside: [12, 12],
@@ -2350,6 +2427,8 @@ layouts! {
     vox_box_hit: size [12, 12], alignment [4, 4], { r#box: [0, 0], body: [4, 4], tet: [8, 8] }
     vox_ray_hit: size [64, 64], alignment [8, 8], { ray: [0, 0], body: [4, 4], tet: [8, 8], facet: [12, 12],
         side: [16, 16], face: [20, 20], t: [32, 32], weights: [40, 40] }
+    vox_track_piece: size [40, 40], alignment [8, 8], { segment: [0, 0], body: [4, 4], tet: [8, 8], facet_in: [12, 12],
+        facet_out: [16, 16], reserved: [20, 20], t_in: [24, 24], t_out: [32, 32] }
     vox_cost_sample: size [16, 16], alignment [8, 8], { cell_size: [0, 0], cost: [8, 8] }
     vox_cost_term: size [24, 24], alignment [8, 8], { name: [0, 0], count: [8, 8], cost: [16, 16] }
     vox_cell_size_rule: size [24, 24], alignment [8, 8], { name: [0, 0], cell_size: [8, 8], cost: [16, 16] }
