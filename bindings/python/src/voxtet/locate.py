@@ -295,9 +295,9 @@ class Locator:
         cells, (_, numbers) = self._cells, self._open()
         assert cells is not None and at.array is not None
         points = at.array.astype(np.float64, copy=False)
-        if outside == "none":
-            max_distance = cells.reach
-        tet, weights, body, state, distance = self._locations(at, "nearest" if outside == "none" else outside, max_distance, desc)
+        most = 0.0 if outside == "none" else max_distance or np.inf
+        tet, weights, body, state, distance = self._locations(
+            at, "nearest" if outside == "none" else outside, 0 if most == np.inf else max(most, cells.reach), desc)
         there = np.flatnonzero(tet >= 0)
         reference, cell = np.zeros((at.length, 3)), np.full(at.length, -1, np.int64)
         inside = state == LocationState.INSIDE
@@ -305,16 +305,32 @@ class Locator:
         inside[there[contained]] = True
         state[inside], distance[inside] = LocationState.INSIDE, 0
         out = there[~inside[there]]
+        far, out = out[distance[out] > most], out[distance[out] <= most]
         if outside == "none":
-            for array, nothing in ((tet, -1), (weights, 0), (body, 0), (state, 0), (distance, 0), (cell, -1), (reference, 0)):
-                array[out] = nothing
-        elif outside == "nearest":
+            far, out = np.concatenate([far, out]), out[:0]
+        for array, nothing in ((tet, -1), (weights, 0), (body, 0), (state, 0), (distance, 0), (cell, -1), (reference, 0)):
+            array[far] = nothing
+        if outside == "nearest":
             corners = cells.positions[cells.tets[tet[out]]]
             closest = sum(weights[out, i, None] * corners[:, i] for i in range(4))
             cell[out], reference[out], _ = cells.answer(closest, tet[out], weights[out])
         located = Located(tet if numbers is None else cell, weights, body)
         located.state, located.distance, located.cell, located.reference = state, distance, cell, reference
         return located
+
+    def _interpolation(self, located: Located) -> tuple[int, NDArray[Any], NDArray[np.float64]]:
+        """How many vertices the mesh has, and the vertices and their weights for each point, (n, k); weights 0 without an
+        answer."""
+        if self._mesh is None:
+            raise TypeError("the locator is of a grid; fields are transferred from one mesh")
+        count, tets = self._mesh
+        there = located.cell >= 0
+        if self._cells is not None and self._cells.bent:
+            nodes, weights = self._cells.interpolation(np.where(there, located.cell, self._cells.of_tet[0]), located.reference)
+            return count, nodes, np.where(there[:, None], weights, 0)
+        _, numbers = self._open()
+        tet = located.tet if numbers is None else np.searchsorted(numbers, located.tet)
+        return count, tets[np.where(there, tet, 0)], located.weights
 
     @property
     def epoch(self) -> int:
