@@ -1,5 +1,9 @@
 """Fields from mesh to mesh, forces back, and a skin that follows a cage."""
 
+import contextlib
+import io
+import os
+import runpy
 import unittest
 
 import numpy as np
@@ -22,8 +26,11 @@ except ImportError:
     pyvista = None
 
 
+SLOPES = np.array([0.3, -1.7, 2.9])
+
+
 def linear(points):
-    return points @ [0.3, -1.7, 2.9] + 0.4
+    return (points * SLOPES).sum(axis=1) + 0.4
 
 
 class Transfers(unittest.TestCase):
@@ -32,13 +39,14 @@ class Transfers(unittest.TestCase):
         self.points = np.random.default_rng(4).random((3000, 3))
 
     def test_a_linear_field(self):
-        """To 4 units in the last place of its largest value in the tetrahedron."""
+        """To 4 units in the last place of the largest term that it is added up from."""
         for scale in (1, 1e-3, 7e5):
             positions, points = self.positions * scale - scale / 3, self.points * scale - scale / 3
             transfer = voxtet.Transfer(positions, points, tets=self.tets)
             values = linear(positions)
-            largest = np.abs(values[self.tets[transfer.located.tet]]).max(axis=1)
-            self.assertLessEqual((np.abs(transfer @ values - linear(points)) / np.spacing(largest)).max(), 4)
+            largest = np.abs(positions[self.tets[transfer.located.tet]] * SLOPES).max(axis=(1, 2)).clip(0.4)
+            exact = linear(points.astype(np.longdouble))
+            self.assertLessEqual((np.abs(transfer @ values - exact) / np.spacing(largest)).max(), 4)
 
     def test_shapes(self):
         transfer = voxtet.Transfer(self.positions, self.points, tets=self.tets)
@@ -110,6 +118,37 @@ class Transfers(unittest.TestCase):
         np.testing.assert_allclose(transfer @ linear(mesh.points), linear(self.points), atol=4e-15)
         sums = transfer.T @ np.ones(3000)
         self.assertAlmostEqual(sums.sum(), 3000, places=10)
+
+
+class Examples(unittest.TestCase):
+    def printed(self, name):
+        printed = io.StringIO()
+        with contextlib.redirect_stdout(printed):
+            runpy.run_path(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "examples", name))
+        return printed.getvalue()
+
+    def setUp(self):
+        try:
+            import voxtet.io
+        except ImportError as missing:
+            self.skipTest(str(missing))
+
+    def test_coarse_to_fine(self):
+        lines = self.printed("coarse_to_fine.py").splitlines()
+        self.assertEqual([line.endswith("exact") for line in lines[1:5]], [True] * 4)
+        errors = [float(line.split()[3]) for line in lines[1:5]]
+        self.assertTrue(all(a > 3 * b for a, b in zip(errors, errors[1:])))
+        self.assertTrue(lines[5].endswith("True"))
+
+    def test_dose(self):
+        lines = self.printed("dose.py").splitlines()
+        self.assertRegex(lines[0], r"^7\d{4} of 100000 rays pass")
+        self.assertTrue(lines[1].endswith("True"))
+
+    def test_skin(self):
+        lines = self.printed("skin.py").splitlines()
+        self.assertEqual(len(lines), 3)
+        self.assertRegex(lines[1], "True$")
 
 
 class Skins(unittest.TestCase):

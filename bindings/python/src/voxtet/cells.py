@@ -114,7 +114,8 @@ def split(shape: Shape, nodes: NDArray[Any]) -> tuple[NDArray[np.int64], NDArray
 def leaves(shape: Shape, reference: Reals) -> Reals:
     """How far reference coordinates (3, n) are outside of the cell; 0 or less inside."""
     far = np.maximum(-reference, reference - 1).max(axis=0)
-    return np.maximum(far, reference[:shape.simplex].sum(axis=0) - 1) if shape.simplex else far
+    found: Reals = np.maximum(far, reference[:shape.simplex].sum(axis=0) - 1) if shape.simplex else far
+    return found
 
 
 def _cross(a: Reals, b: Reals) -> Reals:

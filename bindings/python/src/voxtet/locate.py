@@ -157,6 +157,8 @@ class Locator:
     [1.0]
     """
 
+    _whole: Optional[tuple[int, NDArray[np.uint32], Optional[Cells]]]  # of one mesh: vertex count, tets, cells
+
     def __init__(self, where: Any, tets: Optional[ArrayLike] = None) -> None:
         if isinstance(where, Grid) and tets is None:
             self.update(where)
@@ -165,8 +167,7 @@ class Locator:
         with Grid() as grid:
             grid.add(positions, found, copy=True)
             self._take(grid, numbers)
-        self._cells = cells
-        self._mesh = len(positions), np.array(indices(found, "tets", 4))
+        self._whole = len(positions), np.array(indices(found, "tets", 4)), cells
 
     def update(self, grid: Grid) -> None:
         """From now on, the answers are about the grid as it is now. Other threads may ask meanwhile."""
@@ -178,8 +179,7 @@ class Locator:
         pointer = ctypes.c_void_p()
         with grid._lock:
             vox.vox_grid_update_locator(grid._pointer, pointer)
-        self._cells: Optional[Cells] = None
-        self._mesh: Optional[tuple[int, NDArray[np.uint32]]] = None  # vertex count and tets, unless it is of a grid
+        self._whole = None
         self._taken: Optional[tuple[Handle, Optional[NDArray[Any]]]] = (
             Handle(pointer.value or 0, vox.vox_locator_release), cells)
 
@@ -275,8 +275,9 @@ class Locator:
         no further than max_distance (0: at any distance) with the weights for that; "extrapolate", the same with the weights
         for the point itself, some of which are negative."""
         at, desc = _batch(points, "points"), _desc(mask, excluded)
-        if self._cells is not None and self._cells.bent:
-            return self._in_cells(at, outside, max_distance, desc)
+        cells = self._whole[2] if self._whole else None
+        if cells is not None and cells.bent:
+            return self._in_cells(cells, at, outside, max_distance, desc)
         _, numbers = self._open()
         tet, weights, body, state, distance = self._locations(at, outside, max_distance, desc)
         if outside == "none":
@@ -286,15 +287,14 @@ class Locator:
             tet[tet >= 0] = numbers[tet[tet >= 0]]
         located = Located(tet, weights, body)
         located.state, located.distance, located.cell, located.reference = state, distance, tet, weights[:, 1:]
-        if self._cells is not None and numbers is None:
-            located.cell = np.where(tet >= 0, self._cells.of_tet[tet], -1)
+        if cells is not None and numbers is None:
+            located.cell = np.where(tet >= 0, cells.of_tet[tet], -1)
         return located
-    def _in_cells(self, at: Rows, outside: str, max_distance: float, desc: Any) -> Located:
+    def _in_cells(self, cells: Cells, at: Rows, outside: str, max_distance: float, desc: Any) -> Located:
         """The same where cells have curved faces: those of split cells are flat, so that a point may be in a neighbour of its
         tetrahedron's cell, or outside of the tetrahedra. A point that is in a tetrahedron is never outside."""
-        cells, (_, numbers) = self._cells, self._open()
-        assert cells is not None and at.array is not None
-        points = at.array.astype(np.float64, copy=False)
+        _, numbers = self._open()
+        points = np.asarray(at.array).astype(np.float64, copy=False)
         most = 0.0 if outside == "none" else max_distance or np.inf
         tet, weights, body, state, distance = self._locations(
             at, "nearest" if outside == "none" else outside, 0 if most == np.inf else max(most, cells.reach), desc)
@@ -321,12 +321,12 @@ class Locator:
     def _interpolation(self, located: Located) -> tuple[int, NDArray[Any], NDArray[np.float64]]:
         """How many vertices the mesh has, and the vertices and their weights for each point, (n, k); weights 0 without an
         answer."""
-        if self._mesh is None:
+        if self._whole is None:
             raise TypeError("the locator is of a grid; fields are transferred from one mesh")
-        count, tets = self._mesh
+        count, tets, cells = self._whole
         there = located.cell >= 0
-        if self._cells is not None and self._cells.bent:
-            nodes, weights = self._cells.interpolation(np.where(there, located.cell, self._cells.of_tet[0]), located.reference)
+        if cells is not None and cells.bent:
+            nodes, weights = cells.interpolation(np.where(there, located.cell, cells.of_tet[0]), located.reference)
             return count, nodes, np.where(there[:, None], weights, 0)
         _, numbers = self._open()
         tet = located.tet if numbers is None else np.searchsorted(numbers, located.tet)
@@ -384,10 +384,9 @@ def tracks(start: ArrayLike, end: ArrayLike, where: Any, tets: Optional[ArrayLik
     >>> offsets.tolist(), tet.tolist(), t_in.tolist(), t_out.tolist()
     ([0, 1], [0], [0.0], [0.5])
     """
-    start = _batch(start, "start").array  # type: ignore[assignment]
     pieces = (where if isinstance(where, Locator) else Locator(where, tets)).find_tracks(start, end)
     segment, body, tet, t_in, t_out = pieces.segment, pieces.body, pieces.tet.astype(np.int64), pieces.t_in, pieces.t_out
     first = np.ones(len(pieces), np.bool_)  # of the pieces in one tetrahedron, or in one cell that was split
     first[1:] = ((segment[1:] != segment[:-1]) | (body[1:] != body[:-1]) | (tet[1:] != tet[:-1]) | (t_in[1:] != t_out[:-1]))
-    offsets = np.searchsorted(segment[first], np.arange(len(start) + 1))
+    offsets = np.searchsorted(segment[first], np.arange(_batch(start, "start").length + 1))
     return Tracks(offsets, tet[first], t_in[first], t_out[np.append(first[1:], True)[:len(first)]])

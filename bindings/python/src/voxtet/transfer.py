@@ -8,9 +8,10 @@ from typing import Any, Optional
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ._c import LocationState
 from ._interop import is_mesh
 from .errors import InvalidArgumentError
-from .locate import Located, Locator, LocationState
+from .locate import Located, Locator
 
 _OUTSIDE = {"nearest": "nearest", "raise": "nearest", "nan": "none", "extrapolate": "extrapolate"}
 
