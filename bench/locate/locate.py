@@ -7,10 +7,11 @@ usage: VOXTET_LIBRARY_DIR=build/release PYTHONPATH=bindings/python/src locate.py
 import argparse
 import importlib
 import time
+from fractions import Fraction
 
 import numpy as np
 
-import voxtet
+import voxtet.io
 
 COUNTS = (1000, 100_000, 1_000_000)
 MOST_SECONDS = 30  # of a run; an entrant that would take longer is left out
@@ -56,6 +57,17 @@ class Static:
             self.cells.IntersectWithLine(start, end, 0, points, ids, cell)
             found.append({ids.GetId(i) for i in range(ids.GetNumberOfIds())})
         return found
+
+
+def contains(corners, point):
+    """Whether a tetrahedron has a point, in rational numbers."""
+    corners, point = [[Fraction(float(x)) for x in c] for c in corners], [Fraction(float(x)) for x in point]
+
+    def volume(c):
+        a, b, d = ([x - y for x, y in zip(c[k], c[0])] for k in (1, 2, 3))
+        return sum(a[i] * (b[i - 2] * d[i - 1] - b[i - 1] * d[i - 2]) for i in range(3))
+
+    return all(volume(corners[:k] + [point] + corners[k + 1:]) * volume(corners) >= 0 for k in range(4))
 
 
 def entrants(positions, tets):
@@ -132,7 +144,15 @@ def main():
             return False
         return [cells != set(expected.tet[a:b].tolist()) for cells, a, b in zip(found, expected.offsets, expected.offsets[1:])]
 
-    tasks = {"find": (lambda n: inside[:n], COUNTS, np.not_equal),
+    judged = [0, 0]  # points with other answers: vox is right, the other is
+
+    def other_points(found, expected):
+        for i in np.flatnonzero(found != expected)[:2000]:
+            for k, tet in enumerate((expected[i], found[i])):
+                judged[k] += tet >= 0 and contains(positions[tets[tet]], inside[i])
+        return found != expected
+
+    tasks = {"find": (lambda n: inside[:n], COUNTS, other_points),
              "closest": (lambda n: around[:n], COUNTS, lambda a, b: abs(a - b) > 1e-12),
              "tracks": (lambda n: segments[:, :n], COUNTS[:2], other_tracks)}
     for task, (given, counts, differ) in tasks.items():
@@ -142,7 +162,20 @@ def main():
             if task in functions:
                 times = [measured(functions[task], given, count, rounds, differ, answers[count]) for count in counts]
                 print(f"| {name} | {' | '.join(times)} |", flush=True)
-    print(f"\n{len(answers[counts[-1]].tet) / counts[-1]:.1f} tetrahedra a segment")
+    print(f"\nother answers of find, in rational numbers: vox is right in {judged[0]}, the other in {judged[1]}")
+    cage = voxtet.io.make_lattice_ball(5000, 1.0)
+    skin = random.normal(size=(100_000, 3))
+    skin *= 0.97 / np.linalg.norm(skin, axis=1, keepdims=True)
+    times = []
+    for _ in range(75):
+        began = time.perf_counter()
+        bound = voxtet.embed(skin, cage.positions, cage.tets)
+        middle = time.perf_counter()
+        bound.move(cage.positions)
+        times.append((1e3 * (middle - began), 1e3 * (time.perf_counter() - middle)))
+    (bind, move), (bind_median, move_median) = np.min(times, axis=0), np.median(times, axis=0)
+    print(f"skin bound in {bind:.1f} ms (median {bind_median:.1f}), moved in {move:.2f} ms (median {move_median:.2f})")
+    print(f"{len(answers[counts[-1]].tet) / counts[-1]:.1f} tetrahedra a segment")
 
 
 if __name__ == "__main__":

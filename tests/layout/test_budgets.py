@@ -12,7 +12,7 @@ LINES_OF_FOLDER = {
     "src": 47645, "src/base": 3320, "src/exact": 1420, "src/mesh": 4040, "src/reference": 680, "src/fast": 5550,
     "src/depth": 2930, "src/query": 1540, "src/cell_size": 5464, "src/surface": 3340, "src/grid": 5960, "src/api": 1160,
     "src/io": 9460, "src/sim": 1150, "src/dist": 2070, "src/mpi": 180,
-    "tools": 6680, "bench": 10000,
+    "tools": 6680, "bench": 10200,
 }
 LINES_OF_DATA = {"docs": 1600}  # drawings and figures of the pages
 LINES_OF_FILE = 600  # of a source file in SOURCES

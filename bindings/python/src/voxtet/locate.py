@@ -391,9 +391,16 @@ def tracks(start: ArrayLike, end: ArrayLike, where: Any, tets: Optional[ArrayLik
     >>> offsets.tolist(), tet.tolist(), t_in.tolist(), t_out.tolist()
     ([0, 1], [0], [0.0], [0.5])
     """
-    pieces = (where if isinstance(where, Locator) else Locator(where, tets)).find_tracks(start, end)
-    segment, body, tet, t_in, t_out = pieces.segment, pieces.body, pieces.tet.astype(np.int64), pieces.t_in, pieces.t_out
-    first = np.ones(len(pieces), np.bool_)  # of the pieces in one tetrahedron, or in one cell that was split
-    first[1:] = ((segment[1:] != segment[:-1]) | (body[1:] != body[:-1]) | (tet[1:] != tet[:-1]) | (t_in[1:] != t_out[:-1]))
-    offsets = np.searchsorted(segment[first], np.arange(_batch(start, "start").length + 1))
-    return Tracks(offsets, tet[first], t_in[first], t_out[np.append(first[1:], True)[:len(first)]])
+    locator = where if isinstance(where, Locator) else Locator(where, tets)
+    pieces = locator.find_tracks(start, end)
+    numbers = locator._open()[1]
+    if numbers is not None and (numbers[1:] == numbers[:-1]).any():  # cells were split: their pieces are joined
+        same = np.zeros(len(pieces) + 1, np.bool_)
+        same[1:-1] = pieces.t_in[1:] == pieces.t_out[:-1]
+        for name in ("segment", "body", "tet"):
+            same[1:-1] &= pieces[name][1:] == pieces[name][:-1]
+        first, last = pieces[~same[:-1]], pieces[~same[1:]]
+    else:
+        first = last = pieces
+    offsets = np.searchsorted(np.ascontiguousarray(first.segment), np.arange(_batch(start, "start").length + 1, dtype=np.uint32))
+    return Tracks(offsets, first.tet.astype(np.int64), np.ascontiguousarray(first.t_in), np.ascontiguousarray(last.t_out))
