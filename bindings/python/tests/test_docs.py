@@ -14,7 +14,7 @@ OPTIONAL = {"matplotlib", "meshio", "pyvista", "trimesh"}
 
 
 def modules():
-    for name in ("errors", "grid", "mesh", "results", "suggest", "foreign", "locate", "io", "sim", "experiment", "mpi"):
+    for name in ("errors", "grid", "mesh", "results", "suggest", "foreign", "locate", "transfer", "cells", "skfem", "io", "sim", "experiment", "mpi"):
         try:
             module = importlib.import_module("voxtet." + name)
             if name == "experiment":

@@ -7,19 +7,21 @@ from typing import Any, Iterable, Mapping, NamedTuple, Optional
 import numpy as np
 from numpy.typing import NDArray
 
+from .cells import HEXAHEDRON, PYRAMID, TET, TET10, WEDGE, Block, Cells, Shape, split
 from .errors import InvalidMeshError, warn
 from .mesh import Mesh
 
 # Of vtkCellType.h, linear and of higher order; those have their corners first.
-_VTK_TETS = (10, 24, 71, 78)
 _VTK_TRIANGLES = (5, 22, 34, 69, 76)
-_VTK_VOLUMES = {11: "voxel", 12: "hexahedron", 13: "wedge", 14: "pyramid", 15: "pentagonal prism", 16: "hexagonal prism",
-                25: "quadratic hexahedron", 26: "quadratic wedge", 27: "quadratic pyramid", 29: "triquadratic hexahedron",
-                32: "quadratic linear wedge", 33: "biquadratic quadratic hexahedron", 37: "triquadratic pyramid",
-                41: "convex point set", 42: "polyhedron", 72: "Lagrange hexahedron", 73: "Lagrange wedge",
-                74: "Lagrange pyramid", 79: "Bezier hexahedron", 80: "Bezier wedge", 81: "Bezier pyramid"}
-_VTK_NAMES = {5: "triangle", 10: "tetra", **_VTK_VOLUMES}
-_VOLUMES = ("hexahedron", "wedge", "pyramid", "prism", "polyhedron", "voxel")  # in names of meshio
+_VTK_NAMES = {5: "triangle", 10: "tetra", 11: "voxel", 12: "hexahedron", 13: "wedge", 14: "pyramid", 15: "pentagonal prism",
+              16: "hexagonal prism", 24: "tetra10", 25: "quadratic hexahedron", 26: "quadratic wedge", 27: "quadratic pyramid",
+              29: "triquadratic hexahedron", 32: "quadratic linear wedge", 33: "biquadratic quadratic hexahedron",
+              37: "triquadratic pyramid", 41: "convex point set", 42: "polyhedron", 71: "Lagrange tetrahedron",
+              72: "Lagrange hexahedron", 73: "Lagrange wedge", 74: "Lagrange pyramid", 78: "Bezier tetrahedron",
+              79: "Bezier hexahedron", 80: "Bezier wedge", 81: "Bezier pyramid"}
+_SHAPES = {"tetra": TET, "hexahedron": HEXAHEDRON, "voxel": HEXAHEDRON, "wedge": WEDGE, "pyramid": PYRAMID}  # words of names
+_VOXEL = (0, 1, 3, 2, 4, 5, 7, 6)  # its corners in the order of a hexahedron
+_VOLUMES = ("prism", "polyhedron", "convex point set")  # words of names of those that are left out
 # Those that vox_io knows.
 _REGIONS = frozenset("""region regions region_id regionid region_ids gmsh:physical medit:ref cell_tags cell_markers celltags
     cellentityids physical physical_id material materials materialids material_id material_ids mat_id subdomain subdomains
@@ -36,6 +38,9 @@ class Parts(NamedTuple):
     regions: Optional[NDArray[np.int32]]  # of the tets
     notes: list[str]  # what is not as it was
     others: dict[str, int]  # cells of other kinds, by name
+    blocks: list[Block]
+    local: NDArray[np.int64]  # the corners of the tets as indices into the nodes of their cells
+    as_tets: list[str]  # what is not as it was where the tets are used without the cells
     file_vertices: Optional[NDArray[np.uint32]] = None  # where vertices were left out
 
     def checked(self) -> Parts:
@@ -44,12 +49,13 @@ class Parts(NamedTuple):
             return self
         raise InvalidMeshError(f"the mesh has no tetrahedra and no triangles{self._but()}")
 
-    def with_tets(self) -> Parts:
-        """Itself, if it has tetrahedra. Says what is not as it was."""
+    def with_tets(self, cells: bool = False) -> Parts:
+        """Itself, if it has tetrahedra. Says what is not as it was, if the cells are used or if the tets are."""
         if not len(self.tets):
             raise InvalidMeshError(f"the mesh has no tetrahedra{self._but()}")
-        if self.notes:
-            warn("; ".join(self.notes))
+        notes = self.notes if cells else [*self.notes, *self.as_tets]
+        if notes:
+            warn("; ".join(notes))
         return self
 
     def with_triangles(self) -> tuple[Any, NDArray[Any]]:
@@ -108,59 +114,87 @@ def _regions(arrays: Mapping[str, Any], cells: NDArray[Any]) -> Optional[NDArray
     return best if best is not None and best.any() else None
 
 
-def _notes(high: int, volumes: Mapping[str, int]) -> list[str]:
-    notes = [counted(number, "volume element", "volume elements", "of another kind", f"left out: {name}")
-             for name, number in volumes.items()]
-    if high:
-        notes.append(f"{high} {'tet has' if high == 1 else 'tets have'} more than four nodes; only "
-                     f"{'its' if high == 1 else 'their'} corners were used")
-    return notes
+def _shape_of(name: str, node_count: int) -> Optional[Shape]:
+    """Of a cell with this name of VTK or meshio; None for one that is not taken."""
+    if any(word in name for word in _VOLUMES):
+        return None
+    shape = next((shape for word, shape in _SHAPES.items() if word in name), None)
+    return TET10 if shape is TET and node_count == 10 and "bezier" not in name.lower() else shape
+
+
+def _parts(points: Any, given: Iterable[tuple[str, NDArray[Any], NDArray[Any]]], data: Mapping[str, Any]) -> Parts:
+    """Of cells by their names, (name, indices, nodes), and arrays of values for all cells."""
+    triangles = [np.empty((0, 3), np.int64)]
+    tets, cells, local = [np.empty((0, 4), np.int64)], [np.empty(0, np.int64)], [np.empty((0, 4), np.int64)]
+    blocks: list[Block] = []
+    others: dict[str, int] = {}
+    high = dict.fromkeys((False, True), 0)  # tets with more than four nodes, by whether there are ten
+    notes: list[str] = []
+    as_tets: list[str] = []
+    for name, indices, nodes in given:
+        shape = _shape_of(name, nodes.shape[1])
+        if "triangle" in name:
+            triangles.append(nodes[:, :3])
+        elif shape is None:
+            others[name] = others.get(name, 0) + len(nodes)
+        elif len(nodes):
+            block = Block(shape, indices, nodes[:, _VOXEL] if name == "voxel" else nodes[:, :shape.node_count])
+            of_tet, corners = split(shape, block.nodes)
+            blocks.append(block)
+            tets.append(block.nodes[of_tet[:, None], corners])
+            cells.append(indices[of_tet])
+            local.append(corners)
+            if shape in (TET, TET10):
+                high[shape is TET10] += len(nodes) if nodes.shape[1] > 4 else 0
+            else:
+                as_tets.append(f"{len(nodes)} {'cell was' if len(nodes) == 1 else 'cells were'} split into {len(of_tet)} tets: {name}")
+                if nodes.shape[1] > shape.node_count:
+                    notes.append(f"of {name} only the corners were used")
+    for name, number in others.items():
+        if any(word in name for word in _VOLUMES):
+            notes.append(counted(number, "volume element", "volume elements", "of another kind", f"left out: {name}"))
+    for ten, number in high.items():
+        if number:
+            (as_tets if ten else notes).append(f"{number} {'tet has' if number == 1 else 'tets have'} more than four nodes; only "
+                                               f"{'its' if number == 1 else 'their'} corners were used")
+    found, of_cell, corner = np.concatenate(tets), np.concatenate(cells), np.concatenate(local)
+    if (of_cell[1:] < of_cell[:-1]).any():  # so that the lowest tetrahedron is in the lowest cell
+        order = np.argsort(of_cell, kind="stable")
+        found, of_cell, corner = found[order], of_cell[order], corner[order]
+    return Parts(points, found, np.concatenate(triangles), of_cell, _regions(data, of_cell), notes, others, blocks, corner, as_tets)
 
 
 def _of_pyvista(mesh: Any, starts: NDArray[Any]) -> Parts:
     """A pyvista.UnstructuredGrid. Cell c begins at starts[c] of its connectivity."""
     kinds, connectivity = np.asarray(mesh.celltypes), np.asarray(mesh.cell_connectivity)
+    starts = np.append(starts[:len(kinds)], len(connectivity))
 
-    def corners(wanted: tuple[int, ...], count: int) -> tuple[NDArray[Any], NDArray[Any]]:
-        cells = np.flatnonzero(np.isin(kinds, wanted))
-        return cells, connectivity[starts[cells][:, None] + np.arange(count)]
+    def blocks() -> Iterable[tuple[str, NDArray[Any], NDArray[Any]]]:
+        for kind in np.unique(kinds):
+            cells = np.flatnonzero(kinds == kind)
+            name = _VTK_NAMES.get(int(kind)) or ("triangle" if kind in _VTK_TRIANGLES else f"of VTK's type {kind}")
+            sizes = starts[cells + 1] - starts[cells]
+            for size in np.unique(sizes):
+                those = cells[sizes == size]
+                yield name, those, connectivity[starts[those][:, None] + np.arange(size)]
 
-    cells, tets = corners(_VTK_TETS, 4)
-    _, triangles = corners(_VTK_TRIANGLES, 3)
-    numbers = {int(kind): int(count) for kind, count in zip(*np.unique(kinds, return_counts=True))}
-    volumes = {_VTK_VOLUMES[kind]: n for kind, n in numbers.items() if kind in _VTK_VOLUMES}
-    others = {_VTK_VOLUMES.get(kind, f"of VTK's type {kind}"): n for kind, n in numbers.items()
-              if kind not in _VTK_TETS + _VTK_TRIANGLES}
-    high = sum(n for kind, n in numbers.items() if kind in _VTK_TETS[1:])
-    return Parts(np.asarray(mesh.points), tets, triangles, cells, _regions(mesh.cell_data, cells), _notes(high, volumes), others)
+    return _parts(np.asarray(mesh.points), blocks(), mesh.cell_data)
 
 
 def _of_meshio(mesh: Any) -> Parts:
     """A meshio.Mesh, or what has points and a cells_dict."""
-    tets, triangles, cells = [np.empty((0, 4), np.int64)], [np.empty((0, 3), np.int64)], [np.empty(0, np.int64)]
-    others: dict[str, int] = {}
-    volumes: dict[str, int] = {}
-    first = high = 0
-    blocks = [(b.type, b.data) for b in mesh.cells] if hasattr(mesh, "cells") else mesh.cells_dict.items()
-    for kind, data in blocks:
-        lower = _VTK_NAMES.get(kind) or str(kind).lower()
-        if lower.startswith("tetra") or "tetrahedron" in lower:
-            tets.append(np.asarray(data)[:, :4])
-            cells.append(np.arange(first, first + len(data)))
-            high += len(data) if np.shape(data)[1] > 4 else 0
-        elif "triangle" in lower:
-            triangles.append(np.asarray(data)[:, :3])
-        else:
-            others[lower] = others.get(lower, 0) + len(data)
-            if any(word in lower for word in _VOLUMES):
-                volumes[lower] = others[lower]
-        first += len(data)
-    index = np.concatenate(cells)
+    blocks, first = [], 0
+    for kind, nodes in [(b.type, b.data) for b in mesh.cells] if hasattr(mesh, "cells") else mesh.cells_dict.items():
+        name = _VTK_NAMES.get(kind) or str(kind).lower()
+        indices = np.arange(first, first + len(nodes))
+        first += len(nodes)
+        if len(nodes):
+            ragged = len({len(cell) for cell in nodes}) > 1 if not isinstance(nodes, np.ndarray) else nodes.ndim != 2
+            blocks.append((name, indices, np.zeros((len(nodes), 0), np.int64) if ragged else np.asarray(nodes)))
     cell_data = getattr(mesh, "cell_data", {})
     arrays = {name: np.concatenate([np.asarray(part) for part in parts]) for name, parts in cell_data.items()
               if len({np.shape(part)[1:] for part in parts}) == 1}
-    return Parts(_three_columns(mesh.points), np.concatenate(tets), np.concatenate(triangles), index, _regions(arrays, index),
-                 _notes(high, volumes), others)
+    return _parts(_three_columns(mesh.points), blocks, arrays)
 
 
 def parts_of(mesh: Any) -> Optional[Parts]:
@@ -172,25 +206,28 @@ def parts_of(mesh: Any) -> Optional[Parts]:
     return None
 
 
-def arrays_of(mesh: Any, tets: Any = None) -> tuple[Any, Any, Optional[NDArray[Any]]]:
-    """Positions, tets, and where these are not all cells of the mesh, the index of the cell that each of them is. A mesh of
-    another package without tets is refused, and so is a surface of voxtet.io."""
+def arrays_of(mesh: Any, tets: Any = None) -> tuple[Any, Any, Optional[NDArray[Any]], Optional[Cells]]:
+    """Positions and tets; where these are not all cells of the mesh, the index of the cell that each of them is in; and the
+    cells of a mesh of another package. Without tets such a mesh is refused, and so is a surface of voxtet.io."""
     if tets is not None:
-        return mesh, tets, None
+        return mesh, tets, None, None
     if isinstance(mesh, Mesh):
         positions, found, there = mesh._as_it_collides()
-        return positions, found, None if there.all() else np.flatnonzero(there)
+        return positions, found, None if there.all() else np.flatnonzero(there), None
     if hasattr(mesh, "positions") and hasattr(mesh, "tets"):  # voxtet.io.MeshData, a body of a sim
         if not len(mesh.tets):
             raise InvalidMeshError(f"the mesh has no tetrahedra, but {len(getattr(mesh, 'triangles', ()))} triangles")
-        return mesh.positions, mesh.tets, None
+        return mesh.positions, mesh.tets, None, None
     parts = parts_of(mesh)
     if parts is None:
         raise TypeError(f"a mesh of type {type(mesh).__name__} is not known; give positions and tets, or a mesh of pyvista, "
                         "meshio or voxtet.io")
-    parts = parts.with_tets()
-    of_meshio = not hasattr(mesh, "celltypes")
-    return parts.positions, parts.tets, None if of_meshio or len(parts.cells) == mesh.n_cells else parts.cells
+    parts = parts.with_tets(cells=True)
+    numbered = len(parts.local) > sum(len(block.cells) for block in parts.blocks)  # cells were split
+    if hasattr(mesh, "celltypes"):
+        numbered = numbered or len(parts.cells) < mesh.n_cells
+    return (parts.positions, parts.tets, parts.cells if numbered else None,
+            Cells(np.asarray(parts.positions), parts.tets, parts.blocks, parts.cells, parts.local))
 
 
 def triangles_of(mesh: Any) -> tuple[Any, Any]:
@@ -252,7 +289,7 @@ def _first(candidates: Iterable[Any]) -> Any:
 def primitives_of(mesh: Any) -> tuple[Any, Any]:
     """Positions and indices: tetrahedra, else triangles, else None, for a cloud of points."""
     if isinstance(mesh, Mesh):
-        points, tets, _ = arrays_of(mesh)
+        points, tets = arrays_of(mesh)[:2]
         return points, _first((tets,))
     if hasattr(mesh, "positions") and hasattr(mesh, "tets"):
         return mesh.positions, _first((mesh.tets, getattr(mesh, "triangles", ())))

@@ -268,15 +268,15 @@ def _data_of(mesh: Any) -> MeshData:
         return _of_parts(parts, keep_unused=True)
     if is_mesh(mesh) and not hasattr(mesh, "tets"):
         return MeshData(*_surface(mesh))
-    positions, tets, _ = arrays_of(mesh)
+    positions, tets = arrays_of(mesh)[:2]
     return MeshData(positions, tets)
 
 
 def _of_parts(parts: Parts, keep_unused: bool) -> MeshData:
     """Of a mesh of another package. Its tets, or its triangles, must not be lost in silence."""
     parts = parts.checked() if switch(keep_unused, "keep_unused") else parts.checked().without_unused()
-    if parts.notes:
-        warn("; ".join(parts.notes))
+    if parts.notes or parts.as_tets:
+        warn("; ".join(parts.notes + parts.as_tets))
     return MeshData(parts.positions, parts.tets, parts.triangles, parts.regions, parts.file_vertices)
 
 
@@ -477,7 +477,8 @@ def make_box(size_x: float, size_y: float, size_z: float, cell: float) -> MeshDa
 
 def from_meshio(mesh: meshio.Mesh, *, keep_unused: bool = False) -> MeshData:
     """The tetrahedra and triangles of a mesh of meshio, of any order by their corners, with regions where its cell data has
-    some. keep_unused: as for `load`. A mesh without both is refused."""
+    some; hexahedra, wedges and pyramids are split into tetrahedra. keep_unused: as for `load`. A mesh without all of these is
+    refused."""
     parts = parts_of(mesh)
     if parts is None:
         raise TypeError(f"a mesh of type {type(mesh).__name__} is none of meshio")

@@ -9,10 +9,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _c
-from ._arguments import U32, Rows, integer, points as points_of, real, switch
+from ._c import LocationState
+from ._arguments import U32, Rows, indices, integer, points as points_of, real, switch
 from ._interop import arrays_of
 from ._library import Handle, described, vox
-from .errors import InvalidStateError
+from .cells import Cells
+from .errors import InvalidArgumentError, InvalidStateError
 from .grid import Grid
 from .mesh import Mesh
 from .results import Records, hits_of, record_type
@@ -64,19 +66,62 @@ class RayHits(Records):
     weights: NDArray[np.float64]
 
 
-class Located(NamedTuple):
-    """For each point: the tetrahedron it is in, -1 if in none; the weights of its corners, 0 if in none; the id of the body,
-    0 if in none. Of several tetrahedra, the lowest (body, tet)."""
+class TrackPieces(Records):
+    """The parts of segments that lie in one tetrahedron each, sorted by (segment, body, t_in). `facet_in` and `facet_out` are
+    those through which the segment enters and leaves, NONE where it begins or ends inside or runs along a facet."""
 
+    segment: NDArray[np.uint32]
+    body: NDArray[np.uint32]
+    tet: NDArray[np.uint32]
+    facet_in: NDArray[np.uint32]
+    facet_out: NDArray[np.uint32]
+    t_in: NDArray[np.float64]
+    t_out: NDArray[np.float64]
+
+
+class Tracks(NamedTuple):
+    """What segments pass through. Segment i has the entries from offsets[i] to offsets[i + 1]: the tetrahedron, or the caller's
+    cell, and where the segment enters and leaves it, from 0 at its start to 1 at its end."""
+
+    offsets: NDArray[np.int64]
+    tet: NDArray[np.int64]
+    t_in: NDArray[np.float64]
+    t_out: NDArray[np.float64]
+
+
+class _Found(NamedTuple):
     tet: NDArray[np.int64]
     weights: NDArray[np.float64]
     body: NDArray[np.uint32]
+
+
+class Located(_Found):
+    """For each point: the tetrahedron it is in, -1 if in none; the weights of its corners, 0 if in none; the id of the body,
+    0 if in none. `tet, weights, body = located` takes these apart. Of several tetrahedra it is one of the lowest body: the
+    lowest that has the point inside or, if there is none, on its boundary.
+
+    With `outside="nearest"` or "extrapolate", `tet`, `weights` and `body` of a point outside are those of the tetrahedron
+    that has the closest point, and `state` tells: a LocationState, INSIDE, OUTSIDE, or NONE without an answer. `distance` is
+    that to the closest point, 0 inside.
+
+    `cell` is the tetrahedron, or the cell of a mesh of pyvista or meshio that it is a part of, counted through all blocks of
+    meshio; -1 if there is no answer. `reference`, (n, 3), are reference coordinates there as VTK has them: (r, s, t), with
+    the weights 1 - r - s - t, r, s, t in a tetrahedron."""
+
+    state: NDArray[np.int32]
+    distance: NDArray[np.float64]
+    cell: NDArray[np.int64]
+    reference: NDArray[np.float64]
 
 
 _POINT_HIT = record_type("vox_point_hit")
 _CLOSEST_HIT = record_type("vox_closest_hit")
 _BOX_HIT = record_type("vox_box_hit")
 _RAY_HIT = record_type("vox_ray_hit")
+_LOCATION = record_type("vox_location")
+_TRACK_PIECE = record_type("vox_track_piece")
+_OUTSIDE = ("none", "nearest", "extrapolate")
+_AT_ONCE = 1 << 16  # points whose answers stay in the cache until they are taken apart
 _Body = Union[Mesh, int, None]
 
 
@@ -97,7 +142,8 @@ class Locator:
     threads may ask, also while the grid steps or is closed.
 
     `where`: a grid; positions, with `tets`; a mesh of a grid, of pyvista, meshio or voxtet.io. For a mesh with other cells
-    beside its tetrahedra, `tet` is the index of the cell.
+    beside its tetrahedra, `tet` is the index of the cell. Hexahedra, voxels, wedges and pyramids are split into tetrahedra for
+    it, and tetrahedra of ten nodes, which may be curved, are taken by their corners first.
 
     In all questions: positions are (n, 3), or one (3,). `mask`: only bodies whose filter's category has a bit in common; 0:
     all. `excluded`: a body that takes no part.
@@ -111,14 +157,17 @@ class Locator:
     [1.0]
     """
 
+    _whole: Optional[tuple[int, NDArray[np.uint32], Optional[Cells]]]  # of one mesh: vertex count, tets, cells
+
     def __init__(self, where: Any, tets: Optional[ArrayLike] = None) -> None:
         if isinstance(where, Grid) and tets is None:
             self.update(where)
             return
-        positions, found, cells = arrays_of(where, tets)
+        positions, found, numbers, cells = arrays_of(where, tets)
         with Grid() as grid:
             grid.add(positions, found, copy=True)
-            self._take(grid, cells)
+            self._take(grid, numbers)
+        self._whole = len(positions), np.array(indices(found, "tets", 4)), cells
 
     def update(self, grid: Grid) -> None:
         """From now on, the answers are about the grid as it is now. Other threads may ask meanwhile."""
@@ -130,6 +179,7 @@ class Locator:
         pointer = ctypes.c_void_p()
         with grid._lock:
             vox.vox_grid_update_locator(grid._pointer, pointer)
+        self._whole = None
         self._taken: Optional[tuple[Handle, Optional[NDArray[Any]]]] = (
             Handle(pointer.value or 0, vox.vox_locator_release), cells)
 
@@ -190,19 +240,104 @@ class Locator:
         vox.vox_locator_test_rays(handle.pointer, start_.struct, end_.struct, _desc(mask, excluded), blocked.ctypes.data)
         return blocked
 
-    def locate(self, points: ArrayLike) -> Located:
-        """The tetrahedron of each point: of those that find_point_hits has, the first."""
-        at = _batch(points, "points")
-        hits = self.find_point_hits(at.array)  # type: ignore[arg-type]
-        found = Located(np.full(at.length, -1, np.int64), np.zeros((at.length, 4)), np.zeros(at.length, np.uint32))
-        point = hits.point
-        first = np.ones(len(hits), np.bool_)
-        first[1:] = point[1:] != point[:-1]
-        if not first.all():
-            hits, point = hits[first], point[first]
-        for name in Located._fields:
-            getattr(found, name)[point] = hits[name]
-        return found
+    def find_tracks(self, start: ArrayLike, end: ArrayLike, *, mask: int = 0, excluded: _Body = None) -> TrackPieces:
+        """The tetrahedra that the segments from start[i] to end[i] pass through, exact, in order: inside a body t_out of a
+        piece is t_in of the next one, bit for bit. A stretch along a facet or an edge is in one of the tetrahedra there."""
+        start_, end_, desc = _batch(start, "start"), _batch(end, "end"), _desc(mask, excluded)
+        guess = 16 * start_.length + 64
+        if start_.length > 256 and start_.length == end_.length:  # a second call would take as long as the first
+            every = start_.length // 64
+            few = [_batch(np.asarray(rows.array)[::every], "few") for rows in (start_, end_)]
+            count = ctypes.c_uint64()
+            vox.vox_locator_find_tracks(self._open()[0].pointer, few[0].struct, few[1].struct, desc, None, 0, count)
+            guess = count.value * every * 5 // 4 + 64
+        return self._find(vox.vox_locator_find_tracks, TrackPieces, _TRACK_PIECE,  # type: ignore[no-any-return]
+                          desc, guess, start_, end_)
+
+    def _locations(self, at: Rows, outside: str, max_distance: float, desc: Any) -> tuple[Any, ...]:
+        """tet, weights, body, state and distance of the library."""
+        if outside not in _OUTSIDE:
+            raise InvalidArgumentError(f"outside is {outside!r}; it must be one of {', '.join(map(repr, _OUTSIDE))}")
+        desc.max_distance = real(max_distance, "max_distance") if outside != "none" else np.finfo(float).smallest_subnormal
+        desc.flags = _c.QueryFlags.EXTRAPOLATE * (outside == "extrapolate")
+        handle, _ = self._open()
+        n = at.length
+        tet, weights, body = np.empty(n, np.int64), np.empty((n, 4)), np.empty(n, np.uint32)
+        state, distance = np.empty(n, np.int32), np.empty(n)
+        buffer = np.empty(n, _LOCATION)
+        vox.vox_locator_locate(handle.pointer, at.struct, desc, buffer.ctypes.data)
+        for begin in range(0, n, _AT_ONCE):
+            part = slice(begin, begin + _AT_ONCE)
+            for array, name in ((tet, "tet"), (weights, "weights"), (body, "body"), (state, "state"), (distance, "distance")):
+                array[part] = buffer[part][name]
+        tet[state == LocationState.NONE] = -1
+        return tet, weights, body, state, distance
+
+    def locate(self, points: ArrayLike, *, outside: str = "none", max_distance: float = 0.0, mask: int = 0,
+               excluded: _Body = None) -> Located:
+        """The tetrahedron of each point, exact, and the weights of its corners in double. The answer for a point depends on no
+        other point.
+
+        `outside`: what a point in no tetrahedron gets: "none", -1 and zeros; "nearest", the tetrahedron of the closest point
+        no further than max_distance (0: at any distance) with the weights for that; "extrapolate", the same with the weights
+        for the point itself, some of which are negative."""
+        at, desc = _batch(points, "points"), _desc(mask, excluded)
+        cells = self._whole[2] if self._whole else None
+        if cells is not None and cells.bent:
+            return self._in_cells(cells, at, outside, max_distance, desc)
+        _, numbers = self._open()
+        tet, weights, body, state, distance = self._locations(at, outside, max_distance, desc)
+        if outside == "none":
+            out = state == LocationState.OUTSIDE
+            tet[out], weights[out], body[out], state[out], distance[out] = -1, 0, 0, LocationState.NONE, 0
+        if numbers is not None:
+            tet[tet >= 0] = numbers[tet[tet >= 0]]
+        located = Located(tet, weights, body)
+        located.state, located.distance, located.cell, located.reference = state, distance, tet, weights[:, 1:]
+        if cells is not None and numbers is None:
+            located.cell = np.where(tet >= 0, cells.of_tet[tet], -1)
+        return located
+    def _in_cells(self, cells: Cells, at: Rows, outside: str, max_distance: float, desc: Any) -> Located:
+        """The same where cells have curved faces: those of split cells are flat, so that a point may be in a neighbour of its
+        tetrahedron's cell, or outside of the tetrahedra. A point that is in a tetrahedron is never outside."""
+        _, numbers = self._open()
+        points = np.asarray(at.array).astype(np.float64, copy=False)
+        most = 0.0 if outside == "none" else max_distance or np.inf
+        tet, weights, body, state, distance = self._locations(
+            at, "nearest" if outside == "none" else outside, 0 if most == np.inf else max(most, cells.reach), desc)
+        there = np.flatnonzero(tet >= 0)
+        reference, cell = np.zeros((at.length, 3)), np.full(at.length, -1, np.int64)
+        inside = state == LocationState.INSIDE
+        cell[there], reference[there], contained = cells.answer(points[there], tet[there], weights[there])
+        inside[there[contained]] = True
+        state[inside], distance[inside] = LocationState.INSIDE, 0
+        out = there[~inside[there]]
+        far, out = out[distance[out] > most], out[distance[out] <= most]
+        if outside == "none":
+            far, out = np.concatenate([far, out]), out[:0]
+        for array, nothing in ((tet, -1), (weights, 0), (body, 0), (state, 0), (distance, 0), (cell, -1), (reference, 0)):
+            array[far] = nothing
+        if outside == "nearest":
+            corners = cells.positions[cells.tets[tet[out]]]
+            closest = sum(weights[out, i, None] * corners[:, i] for i in range(4))
+            cell[out], reference[out], _ = cells.answer(closest, tet[out], weights[out])
+        located = Located(tet if numbers is None else cell, weights, body)
+        located.state, located.distance, located.cell, located.reference = state, distance, cell, reference
+        return located
+
+    def _interpolation(self, located: Located) -> tuple[int, NDArray[Any], NDArray[np.float64]]:
+        """How many vertices the mesh has, and the vertices and their weights for each point, (n, k); weights 0 without an
+        answer."""
+        if self._whole is None:
+            raise TypeError("the locator is of a grid; fields are transferred from one mesh")
+        count, tets, cells = self._whole
+        there = located.cell >= 0
+        if cells is not None and cells.bent:
+            nodes, weights = cells.interpolation(np.where(there, located.cell, cells.of_tet[0]), located.reference)
+            return count, nodes, np.where(there[:, None], weights, 0)
+        _, numbers = self._open()
+        tet = located.tet if numbers is None else np.searchsorted(numbers, located.tet)
+        return count, tets[np.where(there, tet, 0)], located.weights
 
     @property
     def epoch(self) -> int:
@@ -230,8 +365,9 @@ class Locator:
         self.close()
 
 
-def locate(points: ArrayLike, where: Any, tets: Optional[ArrayLike] = None) -> Located:
+def locate(points: ArrayLike, where: Any, tets: Optional[ArrayLike] = None, *, outside: str = "none") -> Located:
     """The tetrahedron that each of the points, (n, 3), is in. `where`: what a Locator is made of, as it is now, or a Locator.
+    `outside`: as for Locator.locate.
 
     A point on a facet is in one of the tetrahedra beside it, never in none: decided exactly for the coordinates given. That
     is what VTK's locators, which test with a tolerance, cannot promise.
@@ -242,4 +378,29 @@ def locate(points: ArrayLike, where: Any, tets: Optional[ArrayLike] = None) -> L
     >>> tet.tolist(), weights[0].tolist()
     ([0, 0, -1], [0.25, 0.25, 0.25, 0.25])
     """
-    return (where if isinstance(where, Locator) else Locator(where, tets)).locate(points)
+    return (where if isinstance(where, Locator) else Locator(where, tets)).locate(points, outside=outside)
+
+
+def tracks(start: ArrayLike, end: ArrayLike, where: Any, tets: Optional[ArrayLike] = None) -> Tracks:
+    """What the segments from start[i] to end[i] pass through, in order; `where`: as for `locate`. Bodies of a grid, which may
+    overlap, follow each other.
+
+    >>> import numpy as np
+    >>> corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], float)
+    >>> offsets, tet, t_in, t_out = tracks([[0, .25, .25]], [[1, .25, .25]], corners, [[0, 1, 2, 3]])
+    >>> offsets.tolist(), tet.tolist(), t_in.tolist(), t_out.tolist()
+    ([0, 1], [0], [0.0], [0.5])
+    """
+    locator = where if isinstance(where, Locator) else Locator(where, tets)
+    pieces = locator.find_tracks(start, end)
+    numbers = locator._open()[1]
+    if numbers is not None and (numbers[1:] == numbers[:-1]).any():  # cells were split: their pieces are joined
+        same = np.zeros(len(pieces) + 1, np.bool_)
+        same[1:-1] = pieces.t_in[1:] == pieces.t_out[:-1]
+        for name in ("segment", "body", "tet"):
+            same[1:-1] &= pieces[name][1:] == pieces[name][:-1]
+        first, last = pieces[~same[:-1]], pieces[~same[1:]]
+    else:
+        first = last = pieces
+    offsets = np.searchsorted(np.ascontiguousarray(first.segment), np.arange(_batch(start, "start").length + 1, dtype=np.uint32))
+    return Tracks(offsets, first.tet.astype(np.int64), np.ascontiguousarray(first.t_in), np.ascontiguousarray(last.t_out))
