@@ -4,14 +4,15 @@ import type { CellsKept, CellsQueried, CellsStored, Format, KnownGrid, LogLevel,
 import type {
   BodyInfo, BoxHit, BoxHitColumns, CellSizeDesc, CellSizeResult as CellSizeResultStruct, CellSizeRule as CellSizeRuleStruct,
   ClosestHit, ClosestHitColumns, Constraint, ConstraintColumns, ConstraintDesc, Contact, ContactColumns,
-  CostTerm as CostTermStruct, CostWeights, Failure, Filter, ForeignCounts, ForeignWeights, Geometry, GridDesc, GridInfo, Pair,
-  PairColumns, PointHit, PointHitColumns, QueryDesc, RayHit, RayHitColumns, ReferenceDesc, Timing, TuneDesc,
+  CostTerm as CostTermStruct, CostWeights, Failure, Filter, ForeignCounts, ForeignWeights, Geometry, GridDesc, GridInfo, Location,
+  LocationColumns, Pair, PairColumns, PointHit, PointHitColumns, QueryDesc, RayHit, RayHitColumns, ReferenceDesc, Timing,
+  TrackPiece, TrackPieceColumns, TuneDesc,
 } from "./structs.js";
 
 export * from "./enums.js";
 export type {
   BodyInfo, BoxHit, ClosestHit, Constraint, Contact, CostSample, CostWeights, Failure, Filter, ForeignCounts, ForeignWeights,
-  Geometry, GridInfo, Pair, PointHit, RayHit, Timing,
+  Geometry, GridInfo, Location, Pair, PointHit, RayHit, Timing, TrackPiece,
 } from "./structs.js";
 
 /** A call that vox refused. The message says what was wrong, with numbers in it; `code` is one of `Result`. */
@@ -112,6 +113,8 @@ export interface RecordsOf<Item, Columns> extends Iterable<Item> {
 export type Records<Item, Columns> = RecordsOf<Item, Columns> & Columns;
 
 export type Contacts = Records<Contact, ContactColumns>;
+export type Locations = Records<Location, LocationColumns>;
+export type TrackPieces = Records<TrackPiece, TrackPieceColumns>;
 export type PointHits = Records<PointHit, PointHitColumns>;
 export type ClosestHits = Records<ClosestHit, ClosestHitColumns>;
 export type BoxHits = Records<BoxHit, BoxHitColumns>;
@@ -253,6 +256,9 @@ export interface Locator extends Owned {
   readonly epoch: number;
   /** The number that a mesh was added with. */
   userData(mesh: MeshOrId): bigint;
+  /** Where points are, and the weights that interpolate a field there; outside, of the closest point, or with
+   * QueryFlags.EXTRAPOLATE of the point itself. Record i is that of point i. */
+  locate(points: Positions, options?: QueryOptions): Locations;
   /** The tetrahedra that contain points. */
   findPointHits(points: Positions, options?: QueryOptions): PointHits;
   /** The closest point of all surfaces: record i is that of point i; its body is 0 if there is none. */
@@ -261,6 +267,8 @@ export interface Locator extends Owned {
   findBoxHits(min: Positions, max: Positions, options?: QueryOptions): BoxHits;
   /** The facets that rays meet, of each ray by t; with QueryFlags.FIRST_HIT only its first. */
   findRayHits(from: Positions, to: Positions, options?: QueryOptions): RayHits;
+  /** The tetrahedra that segments pass through, of each segment by body and t. */
+  findTracks(from: Positions, to: Positions, options?: QueryOptions): TrackPieces;
   /** Of each ray 1 if it meets a tetrahedron, else 0. */
   testRays(from: Positions, to: Positions, options?: QueryOptions): Uint8Array;
 }

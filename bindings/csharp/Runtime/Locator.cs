@@ -71,6 +71,21 @@ namespace Voxtet
             return count;
         }
 
+        /// <summary>Where each point is, with the weights that interpolate a field there; outside, of the closest point, or
+        /// with QueryFlags.Extrapolate of the point itself.</summary>
+        public void Locate(ReadOnlySpan<double> points, Span<Location> locations, QueryDesc desc = default(QueryDesc))
+        {
+            CheckRoom(points, locations.Length, "locations");
+            desc.struct_size = (uint)sizeof(QueryDesc);
+            fixed (double* p = &MemoryMarshal.GetReference(points))
+            fixed (Location* l = &MemoryMarshal.GetReference(locations))
+            using (var use = handle.Read())
+            {
+                Positions at = At(p, points, "points");
+                VoxException.Check(Native.vox_locator_locate(use.Pointer, &at, &desc, l));
+            }
+        }
+
         /// <summary>The closest point of all surfaces, for each point; its body is 0 where there is none.</summary>
         public void FindClosest(ReadOnlySpan<double> points, Span<ClosestHit> hits, QueryDesc desc = default(QueryDesc))
         {
@@ -116,6 +131,23 @@ namespace Voxtet
                 Positions begins = At(a, from, "from"), ends = At(b, to, "to");
                 VoxException.Check(Native.vox_locator_find_ray_hits(use.Pointer, &begins, &ends, &desc, h, (ulong)hits.Length,
                                                                     &count));
+            }
+            return count;
+        }
+
+        /// <summary>The tetrahedra that segments pass through, sorted by (segment, body, t_in).</summary>
+        public ulong FindTracks(ReadOnlySpan<double> from, ReadOnlySpan<double> to, Span<TrackPiece> pieces,
+                                QueryDesc desc = default(QueryDesc))
+        {
+            ulong count;
+            desc.struct_size = (uint)sizeof(QueryDesc);
+            fixed (double* a = &MemoryMarshal.GetReference(from), b = &MemoryMarshal.GetReference(to))
+            fixed (TrackPiece* t = &MemoryMarshal.GetReference(pieces))
+            using (var use = handle.Read())
+            {
+                Positions begins = At(a, from, "from"), ends = At(b, to, "to");
+                VoxException.Check(Native.vox_locator_find_tracks(use.Pointer, &begins, &ends, &desc, t, (ulong)pieces.Length,
+                                                                  &count));
             }
             return count;
         }

@@ -309,6 +309,16 @@ namespace Voxtet.Tests
             Test.That(blocked[0] == 1 && blocked[1] == 0, "blocked rays");
             locator.TestRays(from, to, blocked, new QueryDesc { mask = 2 });
             Test.Same(blocked[0], (byte)0, "a ray that all pass");
+            var location = new Location[1];
+            locator.Locate(point, location);
+            Test.That(location[0].body == a.Id && location[0].state == LocationState.Outside, "a location outside");
+            Test.Same(location[0].distance, 1.0, "distance of a location");
+            locator.Locate(point, location, new QueryDesc { max_distance = 0.5 });
+            Test.Same(location[0].state, LocationState.None, "a location too far away");
+            var pieces = new TrackPiece[99];
+            ulong tracks = locator.FindTracks(from, to, pieces, new QueryDesc { excluded = b.Id });
+            Test.That(tracks > 2 && pieces[0].t_out == pieces[1].t_in, tracks + " pieces");
+            Test.Throws<ArgumentException>(() => locator.Locate(from, location), "room for 1, expected 2");
             locator.FindClosest(point, closest, new QueryDesc { max_distance = 0.5 });
             Test.Same(closest[0].body, 0u, "nothing is near");
             locator.FindClosest(point, closest);

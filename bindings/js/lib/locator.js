@@ -72,14 +72,21 @@ export class Locator extends Owned {
     return this.#find("vox_locator_find_point_hits", "vox_point_hit", { points }, settings);
   }
 
-  findClosest(points, settings) {
-    const memory = memoryOf(this);
-    const { size } = structs.vox_closest_hit;
-    return this.#ask("vox_locator_find_closest", { points }, settings, (frame, questions, ask) => {
-      const hits = frame.take(questions * size);
-      ask(hits);
-      return records(memory, "vox_closest_hit", hits, questions);
+  /** One record for each point. */
+  #each(name, struct, points, settings) {
+    return this.#ask(name, { points }, settings, (frame, questions, ask) => {
+      const out = frame.take(questions * structs[struct].size);
+      ask(out);
+      return records(memoryOf(this), struct, out, questions);
     });
+  }
+
+  locate(points, settings) {
+    return this.#each("vox_locator_locate", "vox_location", points, settings);
+  }
+
+  findClosest(points, settings) {
+    return this.#each("vox_locator_find_closest", "vox_closest_hit", points, settings);
   }
 
   findBoxHits(min, max, settings) {
@@ -88,6 +95,10 @@ export class Locator extends Owned {
 
   findRayHits(from, to, settings) {
     return this.#find("vox_locator_find_ray_hits", "vox_ray_hit", { from, to }, settings);
+  }
+
+  findTracks(from, to, settings) {
+    return this.#find("vox_locator_find_tracks", "vox_track_piece", { from, to }, settings);
   }
 
   testRays(from, to, settings) {

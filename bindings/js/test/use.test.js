@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { once } from "node:events";
 import test from "node:test";
 import { Worker } from "node:worker_threads";
-import { CellSizeWarnings, ConstraintKind, COST_WEIGHT_CAPACITY, CURVE_CAPACITY, DepthMethod, DepthState, GridFlags, KnownGrid, LogLevel, NONE, PairState,
+import { CellSizeWarnings, ConstraintKind, COST_WEIGHT_CAPACITY, CURVE_CAPACITY, DepthMethod, DepthState, GridFlags, KnownGrid, LocationState, LogLevel, NONE, PairState,
   PrimitiveType, QueryFlags, ReferenceFlags, Result, Side, VoxError } from "../voxtet.js";
 import { block, loaded } from "./scenes.js";
 
@@ -240,6 +240,13 @@ test("locators", () => {
   assert.deepEqual([...locator.findClosest(middle, { maxDistance: 0.001 }).body], [0]);
   const far = locator.findClosest(new Float32Array([9, 9, 9, ...middle]), { maxDistance: 1, excluded: right });
   assert.deepEqual([...far.body], [0, left.id]);
+  const places = locator.locate(new Float32Array([9, 9, 9, ...middle]), { maxDistance: 1 });
+  assert.deepEqual([...places.state], [LocationState.NONE, LocationState.INSIDE]);
+  assert.equal(places.at(1).body, left.id);
+  const beyond = [0, QueryFlags.EXTRAPOLATE].map((flags) => locator.locate(from.subarray(0, 3), { flags }).at(0));
+  assert.ok(beyond[0].weights.every((w) => w >= 0) && beyond[1].weights.some((w) => w < 0));
+  const pieces = locator.findTracks(from, to, { excluded: right.id });
+  assert.ok(pieces.length > 2 && pieces.tIn.every((t, i) => i === 0 || t === pieces.tOut[i - 1]));
   const hits = locator.findRayHits(from, to, { excluded: right.id });
   assert.deepEqual([[...hits.ray], [...hits.side]], [[0, 0], [Side.ENTERS, Side.LEAVES]]);
   assert.equal(locator.findRayHits(from, to, { flags: QueryFlags.FIRST_HIT }).length, 1);

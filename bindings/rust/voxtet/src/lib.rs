@@ -35,6 +35,10 @@ pub type Pair = sys::vox_pair;
 /// What a solver needs to keep two points apart; see `vox_constraint` in vox.h. `kind` is one of the constants in
 /// [`constraint_kind`], `state` of those in [`depth_state`], and `previous` is [`NONE`] if it is new.
 pub type Constraint = sys::vox_constraint;
+/// Where a point is. `state` is one of the constants in [`location_state`].
+pub type Location = sys::vox_location;
+/// The part of a segment that lies in one tetrahedron; its facets are [`NONE`] where it begins or ends within.
+pub type TrackPiece = sys::vox_track_piece;
 /// A tetrahedron that contains a point.
 pub type PointHit = sys::vox_point_hit;
 /// The closest point of a surface, with a normal and a sign.
@@ -77,6 +81,13 @@ pub mod depth_state {
         VOX_DEPTH_AMBIGUOUS as AMBIGUOUS, VOX_DEPTH_CLOSEST as CLOSEST, VOX_DEPTH_PLANE as PLANE,
         VOX_DEPTH_PROPAGATED as PROPAGATED, VOX_DEPTH_SURFACE as SURFACE, VOX_DEPTH_TOUCHING as TOUCHING,
         VOX_DEPTH_UNKNOWN as UNKNOWN,
+    };
+}
+
+/// Values of [`Location::state`].
+pub mod location_state {
+    pub use voxtet_sys::{
+        VOX_LOCATION_INSIDE as INSIDE, VOX_LOCATION_NONE as NONE, VOX_LOCATION_OUTSIDE as OUTSIDE,
     };
 }
 

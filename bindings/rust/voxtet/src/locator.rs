@@ -5,25 +5,28 @@ use voxtet_sys as sys;
 use crate::error::{check, sized};
 use crate::grid::positions_to_c;
 use crate::options::Scalar;
-use crate::{BoxHit, ClosestHit, Grid, Mesh, PointHit, RayHit, Result};
+use crate::{BoxHit, ClosestHit, Grid, Location, Mesh, PointHit, RayHit, Result, TrackPiece};
 
 /// Which meshes answer, and how far to look. The default: all, at any distance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct QueryOptions {
     /// Only the first hit of each ray.
     pub first_hit: bool,
+    /// For [`Locator::locate`]: outside, the weights of the point itself rather than of the closest point.
+    pub extrapolate: bool,
     /// Only meshes whose category had a bit in common with it; 0: all.
     pub mask: u64,
     /// Not this mesh.
     pub excluded: Option<Mesh>,
-    /// For [`Locator::find_closest`], no further than this; 0: any distance.
+    /// For [`Locator::locate`] and [`Locator::find_closest`], no further than this; 0: any distance.
     pub max_distance: f64,
 }
 
 impl QueryOptions {
     fn to_c(self) -> sys::vox_query_desc {
         sys::vox_query_desc {
-            flags: u32::from(self.first_hit) * sys::VOX_QUERY_FIRST_HIT,
+            flags: u32::from(self.first_hit) * sys::VOX_QUERY_FIRST_HIT
+                | u32::from(self.extrapolate) * sys::VOX_QUERY_EXTRAPOLATE,
             mask: self.mask,
             excluded: self.excluded.map_or(sys::VOX_NULL_BODY, Mesh::id),
             max_distance: self.max_distance,
@@ -54,6 +57,15 @@ fn collect<T>(guess: usize, mut ask: impl FnMut(*mut T, u64, &mut u64) -> sys::v
         }
         hits.reserve_exact(count as usize);
     }
+}
+
+/// One record for each of `count` questions.
+fn each<T>(count: usize, ask: impl FnOnce(*mut T) -> sys::vox_result) -> Result<Vec<T>> {
+    let mut out: Vec<T> = Vec::with_capacity(count);
+    check(ask(out.as_mut_ptr()))?;
+    // SAFETY: written by the library.
+    unsafe { out.set_len(count) };
+    Ok(out)
 }
 
 // SAFETY of all: a locator that lives, and arrays that are as long as is said.
@@ -91,14 +103,16 @@ impl Locator {
         })
     }
 
+    /// Where each point is, with the weights that interpolate a field there; outside, of the closest point.
+    pub fn locate<T: Scalar>(&self, points: &[[T; 3]], options: QueryOptions) -> Result<Vec<Location>> {
+        let (at, desc) = (positions_to_c(points), options.to_c());
+        each(points.len(), |out| unsafe { sys::vox_locator_locate(self.0, &at, &desc, out) })
+    }
+
     /// The closest point of all surfaces, for each point; its `body` is 0 where there is none.
     pub fn find_closest<T: Scalar>(&self, points: &[[T; 3]], options: QueryOptions) -> Result<Vec<ClosestHit>> {
-        let mut hits = Vec::with_capacity(points.len());
-        check(unsafe {
-            sys::vox_locator_find_closest(self.0, &positions_to_c(points), &options.to_c(), hits.as_mut_ptr())
-        })?;
-        unsafe { hits.set_len(points.len()) };
-        Ok(hits)
+        let (at, desc) = (positions_to_c(points), options.to_c());
+        each(points.len(), |out| unsafe { sys::vox_locator_find_closest(self.0, &at, &desc, out) })
     }
 
     /// The tetrahedra whose bounding boxes meet boxes, sorted by box.
@@ -127,15 +141,26 @@ impl Locator {
         })
     }
 
+    /// The tetrahedra that segments pass through, sorted by (segment, body, t_in).
+    pub fn find_tracks<T: Scalar>(
+        &self,
+        from: &[[T; 3]],
+        to: &[[T; 3]],
+        options: QueryOptions,
+    ) -> Result<Vec<TrackPiece>> {
+        let (from, to, desc) = (positions_to_c(from), positions_to_c(to), options.to_c());
+        collect(64, |pieces, capacity, count| unsafe {
+            sys::vox_locator_find_tracks(self.0, &from, &to, &desc, pieces, capacity, count)
+        })
+    }
+
     /// Whether each ray meets a tetrahedron.
     pub fn test_rays<T: Scalar>(&self, from: &[[T; 3]], to: &[[T; 3]], options: QueryOptions) -> Result<Vec<bool>> {
-        let mut blocked: Vec<bool> = Vec::with_capacity(from.len());
-        let (begins, ends) = (positions_to_c(from), positions_to_c(to));
-        check(unsafe {
-            sys::vox_locator_test_rays(self.0, &begins, &ends, &options.to_c(), blocked.as_mut_ptr().cast())
-        })?;
-        unsafe { blocked.set_len(from.len()) }; // each 0 or 1
-        Ok(blocked)
+        let (begins, ends, desc) = (positions_to_c(from), positions_to_c(to), options.to_c());
+        // Each is written as 0 or 1.
+        each(from.len(), |out: *mut bool| unsafe {
+            sys::vox_locator_test_rays(self.0, &begins, &ends, &desc, out.cast())
+        })
     }
 }
 

@@ -243,6 +243,16 @@ fn locators() {
     assert_eq!(locator.test_rays(&from, &to, all).unwrap(), [true, false]);
     assert_eq!(locator.test_rays(&from, &to, QueryOptions { mask: 2, ..all }).unwrap(), [false, false]);
     assert_eq!(code(locator.test_rays(&from, &to[..1], all)), ErrorCode::InvalidArgument);
+    let found = locator.locate(&from[..1], all).unwrap()[0];
+    assert_eq!((found.body, found.state, found.distance), (a.id(), location_state::OUTSIDE, 1.0));
+    assert!(found.weights.iter().all(|&weight| weight >= 0.0));
+    let beyond = locator.locate(&from[..1], QueryOptions { extrapolate: true, ..all }).unwrap()[0];
+    assert!(beyond.tet == found.tet && beyond.weights.iter().any(|&weight| weight < 0.0));
+    let none = locator.locate(&from[..1], QueryOptions { max_distance: 0.5, ..all }).unwrap()[0];
+    assert_eq!((none.body, none.state), (0, location_state::NONE));
+    let pieces = locator.find_tracks(&from, &to, QueryOptions { excluded: Some(b), ..all }).unwrap();
+    assert!(pieces.len() > 2 && pieces.windows(2).all(|next| next[0].t_out == next[1].t_in));
+    assert_eq!(code(locator.find_tracks(&from, &to[..1], all)), ErrorCode::InvalidArgument);
     assert_eq!(locator.find_closest(&from[..1], all).unwrap()[0].distance, 1.0);
     let near = QueryOptions { max_distance: 0.5, ..all };
     assert_eq!(locator.find_closest(&from[..1], near).unwrap()[0].body, 0);
