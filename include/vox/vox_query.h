@@ -226,8 +226,8 @@ typedef struct vox_track_piece {
 } vox_track_piece;
 
 /* Finds the tetrahedra that segments pass through, sorted by (segment, body, t_in, t_out, tet). By the rule of
- * vox_contact, every stretch of a segment belongs to each tetrahedron of a body that has it in its interior or, if there
- * is none, to the lowest that has it in a facet or an edge. So the pieces in a body whose tetrahedra do not overlap have
+ * vox_contact, a stretch of a segment belongs to every tetrahedron of a body that has it in its interior. If none has, it
+ * belongs to the lowest that has it in a facet or an edge. So the pieces in a body whose tetrahedra do not overlap have
  * no gap inside the body and do not overlap: t_out of one is t_in of the next, bit for bit. Which tetrahedra a segment
  * passes through is exact. A point is no piece: segments that only touch a tetrahedron, and those without length, have
  * none there. */

@@ -9,13 +9,13 @@ from repository import files, text_of
 # Pages that are read by maintainers, or looked things up in.
 INSIDE = {"docs/abi.md", "docs/cost-models.md", "docs/depth-method.md", "docs/engine.md", "docs/grid-counts.md",
           "docs/for-maintainers.md", "docs/renamed.md", "docs/style.md"}
-REFERENCE = {"docs/command-line.md", "docs/install.md", "docs/limits.md"}
+REFERENCE = {"docs/command-line.md", "docs/file-formats.md", "docs/install.md", "docs/limits.md"}
 MOST_LINES_OF_README = 130
 MOST_WORDS = 1500  # of a page
 MOST_WORDS_IN_ALL = 22000
 LONG = 35  # words of a sentence
 # Per 1,000 words of all pages for users. When the pages get better, the test asks for a lower ceiling.
-CEILINGS = {"stand-ins for nouns": 0, "long sentences": 0, "figures": 10.6}
+CEILINGS = {"stand-ins for nouns": 0, "long sentences": 0, "figures": 9.3}
 SLACK = .9
 
 
