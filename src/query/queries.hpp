@@ -200,9 +200,8 @@ public:
     std::uint32_t index(std::size_t i) const noexcept { return tets_.tiles.tets[tile_.first_tet + i]; }
     // Bit f is set when facet f is on the surface.
     unsigned facets(std::size_t i) const noexcept { return tets_.facets[tile_.first_tet + i]; }
-    TetLink across(std::size_t i, std::size_t facet) const noexcept {
-        return tets_.links[tile_.first_tet + i][facet];
-    }
+    // The place of the first one in tiles.tets of its mesh.
+    std::size_t first_tet() const noexcept { return tile_.first_tet; }
     std::uint32_t vertex(std::size_t i, std::size_t corner) const noexcept {
         return tets_.tiles.vertices[tile_.first_vertex + corners_[corner * tile_size + i]];
     }

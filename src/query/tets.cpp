@@ -1,5 +1,7 @@
 #include "query/tets.hpp"
 
+#include "mesh/facets.hpp"
+
 #include <algorithm>
 #include <cstddef>
 
@@ -14,47 +16,55 @@ std::uint8_t surface_facets(const std::array<std::uint32_t, 4>& across) noexcept
     return static_cast<std::uint8_t>(facets);
 }
 
-// Is the triangle in an odd order?
-bool is_odd(std::uint32_t a, std::uint32_t b, std::uint32_t c) noexcept {
-    return (a > b) ^ (b > c) ^ (a > c);
-}
-
 // Links the tetrahedra across facets, and compares their orders.
-void link(const Topology& topology, QueryTets& made) {
-    const Tiles& tiles = made.tiles;
+void link(const Tiles& tiles, QueryTets::Links& links) {
     if (tiles.tiles.size() >= TetLink::no_tile) return;
-    Array<TetLink> places(topology.across.size(), TetLink{TetLink::no_tile, 0, 0, 0}, made.links.memory());
+    std::pmr::memory_resource* const memory = links.memory();
+    Array<Tet> tets(memory);
+    Array<TetLink> places(memory);
+    tets.reserve(tiles.tets.size());
+    places.reserve(tiles.tets.size());
+    std::uint32_t vertices = 0;
     for (std::uint32_t t = 0; t < tiles.tiles.size(); ++t)
-        for (std::uint32_t i = 0; i < tiles.tiles[t].tet_count; ++i)
-            places[tiles.tets[tiles.tiles[t].first_tet + i]] = {t & TetLink::no_tile, i & 63u, 0, 0};
-    const auto is_odd_facet = [&](const TetLink& tet, std::size_t facet) {
-        const auto vertex = [&](std::size_t c) {
-            return tiles
-                .vertices[tiles.tiles[tet.tile].first_vertex +
-                          tiles.corners_of(tet.tile)[facet_corners[facet][c] * tile_size + tet.place]];
-        };
-        return is_odd(vertex(0), vertex(1), vertex(2));
-    };
-    made.links.reserve(tiles.tets.size());
-    for (const std::uint32_t tet : tiles.tets) {
-        std::array<TetLink, 4> links;
-        for (std::size_t f = 0; f < 4; ++f) {
-            const std::uint32_t other = topology.across(tet, static_cast<std::uint32_t>(f));
-            if (other == Topology::nothing) return made.links.clear();
-            links[f] = {TetLink::no_tile, 0, 0, 0};
-            if (other & Topology::surface_bit) continue;
-            const auto back = topology.across[other];
-            const std::size_t facet = std::size_t(std::ranges::find(back, tet) - back.begin());
-            if (facet == 4 || places[other].tile == TetLink::no_tile) return made.links.clear();
-            links[f] = places[other];
-            links[f].facet = static_cast<std::uint32_t>(facet) & 3u;
-            links[f].turned = is_odd_facet(places[tet], f) == is_odd_facet(places[other], facet);
+        for (std::uint32_t i = 0; i < tiles.tiles[t].tet_count; ++i) {
+            Tet tet{};
+            for (std::size_t c = 0; c < 4; ++c) {
+                tet.v[c] =
+                    tiles.vertices[tiles.tiles[t].first_vertex + tiles.corners_of(t)[c * tile_size + i]];
+                vertices = std::max(vertices, tet.v[c] + 1);
+            }
+            tets.push_back(tet);
+            places.push_back({t & TetLink::no_tile, i & 63u, 0, 0});
         }
-        made.links.push_back(links);
+    MatchedFacets matched(memory);
+    match_facets(tets, vertices, matched);
+    links.reserve(tets.size());
+    for (std::uint32_t tet = 0; tet < tets.size(); ++tet) {
+        std::array<TetLink, 4> of;
+        for (std::uint32_t f = 0; f < 4; ++f) {
+            const std::uint32_t other = matched.across(tet, f);
+            if (other == MatchedFacets::nothing) return links.clear();
+            of[f] = {TetLink::no_tile, 0, 0, 0};
+            if (other & MatchedFacets::surface_bit) continue;
+            const auto back = matched.across[other];
+            const auto facet = static_cast<std::uint32_t>(std::ranges::find(back, tet) - back.begin());
+            if (facet == 4) return links.clear();
+            of[f] = places[other];
+            of[f].facet = facet & 3u;
+            of[f].turned = sorted_facet(tets[tet], f).even == sorted_facet(tets[other], facet).even;
+        }
+        links.push_back(of);
     }
 }
 
 } // namespace
+
+const QueryTets::Links& QueryTets::links() const {
+    const std::scoped_lock lock(making_);
+    if (!made_) link(tiles, links_);
+    made_ = true;
+    return links_;
+}
 
 std::shared_ptr<const QueryTets> make_query_tets(const Tiles& tiles, const Topology& topology,
                                                  std::pmr::memory_resource* memory) {
@@ -88,7 +98,6 @@ std::shared_ptr<const QueryTets> make_query_tets(const Tiles& tiles, const Topol
         for (std::size_t i = 0; i < tile.tet_count; ++i)
             made->facets.push_back(surface_facets(topology.across[tets[i]]));
     }
-    link(topology, *made);
     return made;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "base/array.hpp"
-#include "base/prefetch.hpp"
 #include "mesh/tiles.hpp"
 #include "mesh/topology.hpp"
 
@@ -10,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <memory_resource>
+#include <mutex>
 
 namespace vox {
 
@@ -21,21 +21,23 @@ struct TetLink {
     static constexpr std::uint32_t no_tile = 0x7fffff;
 };
 
-// Never changed, so that all locators of the same tetrahedra share it.
+// Never changed but for what is made late, so that all locators of the same tetrahedra share it.
 struct QueryTets {
-    explicit QueryTets(std::pmr::memory_resource* memory) noexcept
-        : tiles(memory), facets(memory), links(memory) {}
+    explicit QueryTets(std::pmr::memory_resource* memory) noexcept : tiles(memory), facets(memory) {}
 
     Tiles tiles;                // those that hold tetrahedra: tiles, corners, tets and vertices
     Array<std::uint8_t> facets; // for each of tiles.tets, a bit for each facet (facet_corners) on the surface
-    // For each facet of each of tiles.tets what is across it. Empty if some facets have more than two
-    // tetrahedra, a tetrahedron is there twice, or there are too many.
-    Array<std::array<TetLink, 4>> links;
 
-    void prefetch(const TetLink& tet) const noexcept {
-        if (tet.tile != TetLink::no_tile)
-            vox::prefetch(links.data() + tiles.tiles[tet.tile].first_tet + tet.place);
-    }
+    using Links = Array<std::array<TetLink, 4>>;
+    // For each facet of each of tiles.tets what is across it; made by the first call, in memory of the heap.
+    // Empty if some facets have more than two tetrahedra, a tetrahedron is there twice, or there are too
+    // many. Throws what the heap throws.
+    const Links& links() const;
+
+private:
+    mutable std::mutex making_;
+    mutable bool made_ = false; // set with making_ locked
+    mutable Links links_{std::pmr::new_delete_resource()};
 };
 
 // Throws what the memory throws.

@@ -33,9 +33,13 @@ TrackChord find_chord(const Vec3d& from, const Vec3d& to, const Vec3d* const (&c
 // The pieces of one segment at a time.
 class Queries::Tracker {
 public:
-    Tracker(const Queries& queries, QueryMeshes which, std::pmr::memory_resource* memory)
-        : queries_(queries), which_(which), pieces_(memory), settled_(memory), borders_(memory),
-          active_(memory) {}
+    // `walks`: if not, `around_from` is null.
+    Tracker(const Queries& queries, QueryMeshes which, bool walks, std::pmr::memory_resource* memory)
+        : queries_(queries), which_(which), links_(memory), pieces_(memory), settled_(memory),
+          borders_(memory), active_(memory) {
+        for (const Mesh& mesh : queries.meshes_)
+            links_.push_back(walks && wants(mesh, which) ? &mesh.tets->links() : nullptr);
+    }
 
     // `around_from` are the tetrahedra that contain `from`, all of them but for boundaries; null if the tree
     // is to be searched.
@@ -64,6 +68,7 @@ private:
     const Queries& queries_;
     const QueryMeshes which_;
     Vec3d from_{}, to_{};
+    Array<const QueryTets::Links*> links_; // of each mesh, while it walks
     Array<Piece> pieces_, settled_;
     Array<double> borders_;      // of settle()
     Array<const Piece*> active_; // likewise

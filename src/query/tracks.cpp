@@ -182,15 +182,16 @@ void Queries::Tracker::settle(std::span<const Piece> pieces) {
 
 void Queries::tracks(std::span<const Vec3d> from, std::span<const Vec3d> to, QueryMeshes which,
                      std::pmr::memory_resource* memory, HitList<vox_track_piece>& pieces) const {
-    // Whether a mesh can be walked through takes as long to find as a segment for so many tetrahedra.
-    constexpr std::size_t tets_a_segment = 128;
+    // To find whether a mesh can be walked through takes as long as a search of the tree for so many
+    // tetrahedra.
+    constexpr std::size_t tets_a_segment = 64;
     const bool may_find = from.size() * tets_a_segment >= boxes_.size();
     const bool walks = std::all_of(meshes_.begin(), meshes_.end(), [&](const Mesh& mesh) {
         return !wants(mesh, which) || is_walkable(mesh, may_find, memory);
     });
     Array<PointHit> around(memory);
     if (walks) find_all(from, which, memory, around);
-    Tracker tracker(*this, which, memory);
+    Tracker tracker(*this, which, walks, memory);
     std::size_t begin = 0;
     for (std::uint32_t i = 0; i < from.size(); ++i) {
         std::size_t end = begin;

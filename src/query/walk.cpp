@@ -4,9 +4,11 @@
 // or begins on one is left to the search of the tree.
 #include "query/tracker.hpp"
 
+#include "base/prefetch.hpp"
 #include "base/vectors.hpp"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 namespace vox {
@@ -14,7 +16,8 @@ namespace vox {
 bool Queries::is_walkable(const Mesh& mesh, bool may_find, std::pmr::memory_resource* memory) const {
     return mesh.walkable.get(may_find, [&] {
         const QueryTets& tets = *mesh.tets;
-        if (tets.links.empty()) return false;
+        const QueryTets::Links& links = tets.links();
+        if (links.empty()) return false;
         Array<std::int8_t> sign(tets.tiles.tets.size(), memory);
         std::uint64_t exact_tests = 0;
         std::size_t next = 0;
@@ -29,7 +32,7 @@ bool Queries::is_walkable(const Mesh& mesh, bool may_find, std::pmr::memory_reso
         }
         for (std::size_t t = 0; t < sign.size(); ++t)
             for (std::size_t f = 0; f < 4; ++f) {
-                const TetLink across = tets.links[t][f];
+                const TetLink across = links[t][f];
                 if (across.tile == TetLink::no_tile) continue;
                 const std::int8_t other = sign[tets.tiles.tiles[across.tile].first_tet + across.place];
                 if ((sign[t] == other) == across.turned) return false;
@@ -127,6 +130,11 @@ bool Queries::Tracker::walk(std::uint32_t leaf, std::uint32_t place, std::uint32
     const Mesh& mesh = queries_.meshes_[m];
     std::uint32_t next = queries_.leaves_[leaf].tile, tile = TetLink::no_tile;
     std::optional<LeafTets> tets;
+    const QueryTets::Links& links = *links_[m];
+    const auto prefetch_links = [&](const TetLink& tet) {
+        if (tet.tile != TetLink::no_tile)
+            prefetch(links.data() + mesh.tets->tiles.tiles[tet.tile].first_tet + tet.place);
+    };
     std::uint64_t exact_tests = 0;
     for (bool follows = false;; follows = true) {
         if (next != tile) {
@@ -135,8 +143,9 @@ bool Queries::Tracker::walk(std::uint32_t leaf, std::uint32_t place, std::uint32
         }
         const Vec3d* const corner[4] = {&tets->corner(place, 0), &tets->corner(place, 1),
                                         &tets->corner(place, 2), &tets->corner(place, 3)};
+        const std::array<TetLink, 4>& here = links[tets->first_tet() + place];
         for (std::size_t f = 0; f < 4; ++f)
-            if (f != facet_in) mesh.tets->prefetch(tets->across(place, f));
+            if (f != facet_in) prefetch_links(here[f]);
         const auto leaves_by = [&](std::uint32_t facet) {
             return ends_beyond(corner, facet) ||
                    volume * orientation(*corner[facet_corners[facet][0]], *corner[facet_corners[facet][1]],
@@ -157,7 +166,7 @@ bool Queries::Tracker::walk(std::uint32_t leaf, std::uint32_t place, std::uint32
         if (!follows) add_end(corner, facet_in, false);
         add_end(corner, out, true);
         if (out == VOX_NONE) return true;
-        const TetLink across = tets->across(place, out);
+        const TetLink across = here[out];
         if (across.tile == TetLink::no_tile) return true;
         if (across.turned) volume = -volume;
         next = across.tile;

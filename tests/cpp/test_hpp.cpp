@@ -374,6 +374,15 @@ START_TEST(arrays_of_another_size_are_errors) {
     std::vector<vox_closest_hit> room(3);
     throws([&] { locator.find_closest(columns, room); }, VOX_ERROR_INVALID_ARGUMENT,
            "room for 3 hits, for 4");
+    ck_assert_int_eq(locator.locate(columns).at(3).state, VOX_LOCATION_INSIDE);
+    std::vector<vox_location> locations(3);
+    throws([&] { locator.locate(columns, locations); }, VOX_ERROR_INVALID_ARGUMENT,
+           "room for 3 locations, for 4");
+    const Eigen::Matrix<float, Eigen::Dynamic, 3> ends = columns.array() + 0.25f;
+    std::vector<vox_track_piece> pieces = locator.find_tracks(columns, ends), first(1);
+    ck_assert_uint_ge(pieces.size(), 4);
+    ck_assert_uint_eq(locator.find_tracks(columns, ends, first), pieces.size());
+    ck_assert_mem_eq(first.data(), pieces.data(), sizeof first[0]);
     with.grid.step(); // and the grid is as it was
     ck_assert_uint_eq(with.grid.meshes().size(), 2);
 }

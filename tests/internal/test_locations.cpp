@@ -1,4 +1,5 @@
 // Locations of points, by definition: every tetrahedron and every facet tried, weights by rational numbers.
+#include "base/simd.hpp"
 #include "base/vectors.hpp"
 #include "exact/accurate.hpp"
 #include "internal/exact_queries.hpp"
@@ -140,6 +141,12 @@ void check_locations(const std::vector<QueryDefinition>& meshes, const std::vect
             ck_assert(found[i].weights[n] >= 0 && !std::signbit(found[i].weights[n]));
         }
     }
+    for (const simd::Level level : {simd::Level::portable, simd::Level::sse4, simd::Level::avx2}) {
+        simd::force_level(level);
+        const std::vector<vox_location> again = locate_all(locator, points);
+        ck_assert_mem_eq(again.data(), found.data(), found.size() * sizeof found[0]);
+    }
+    simd::force_level(simd::best_level());
     // Any order and any split.
     std::vector<std::uint32_t> order = permutation(random, points.size());
     std::vector<Vec3d> others;
