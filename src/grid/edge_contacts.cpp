@@ -293,7 +293,7 @@ void EdgeContacts::decide(const StepScene& scene, const LoadedTile& edges, std::
                     body.positions.exact(behind.v[faces.features->facets[place]]), worker.exact_tests);
     if (inside == 0) inside = orientation(corner[0], corner[1], corner[2], p, worker.exact_tests);
     const std::size_t second = inside > 0 ? 2 : 1, third = 3 - second;
-    Vec3d normal = normalised(cross(scaled(corner[second] - corner[0]), scaled(corner[third] - corner[0])));
+    Vec3d normal = triangle_normal(corner[0], corner[second], corner[third]);
     if (!(length(normal) > 0)) normal = {0, 0, 1};
     const EdgeContact contact{
         .body_a = scene.bodies[edges.body].mesh_id,
