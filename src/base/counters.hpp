@@ -40,11 +40,10 @@ struct Counters {
     // Pairs that began and ended in all steps since the grid was created or loaded.
     std::uint64_t total_touches_began = 0;
     std::uint64_t total_touches_ended = 0;
-    std::uint64_t edges = 0;         // 0 without VOX_GRID_EDGES, as are the next two
-    std::uint64_t carried_edges = 0; // part of `edges` carried over from the step before
-    std::uint64_t edge_candidates =
-        0;                         // edges and faces whose boxes overlap, if crowded also those along them
-    std::uint64_t proximities = 0; // 0 without a margin (vox_grid_set_margin), as is the next one
+    std::uint64_t edges = 0;               // 0 without VOX_GRID_EDGES, as are the next two
+    std::uint64_t carried_edges = 0;       // part of `edges` carried over from the step before
+    std::uint64_t edge_candidates = 0;     // edges and faces whose boxes overlap, also along slivers
+    std::uint64_t proximities = 0;         // 0 without a margin (vox_grid_set_margin), as is the next one
     std::uint64_t carried_proximities = 0; // part of `proximities` carried over from the step before
     std::uint64_t constraints = 0;         // that were found last; 0 where none were looked for
     std::uint64_t impacts = 0;             // 0 without previous positions (vox_mesh_bind_previous_positions)
