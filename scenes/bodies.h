@@ -7,7 +7,6 @@
 
 #include <vox/vox.h>
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -112,22 +111,6 @@ static inline void move_body(body* b, double x, double y, double z) {
         b->positions[3 * v + 1] = (float)(b->positions[3 * v + 1] + y);
         b->positions[3 * v + 2] = (float)(b->positions[3 * v + 2] + z);
     }
-}
-
-/* A sheet of slivers around the origin, each a tet of its own: `count` side by side, long, as thick as wide,
- * all turned about z. */
-static inline body make_slivers(uint32_t count, double length, double thick, double spacing, double angle) {
-    body sheet = {(float*)malloc(12 * sizeof(float) * count), (uint32_t*)malloc(4 * sizeof(uint32_t) * count),
-                  4 * count, count};
-    for (uint32_t v = 0; v < sheet.vertex_count; ++v) {
-        const double x = v % 4 == 0 ? -0.5 * length : v % 4 == 1 ? 0.5 * length : 0.01 * length;
-        const double y = spacing * (v / 4 - 0.5 * count) + (v % 4 == 2 ? thick : 0);
-        sheet.positions[3 * v] = (float)(x * cos(angle) - y * sin(angle));
-        sheet.positions[3 * v + 1] = (float)(x * sin(angle) + y * cos(angle));
-        sheet.positions[3 * v + 2] = (float)(v % 4 == 3 ? thick : 0);
-        sheet.tets[v] = v;
-    }
-    return sheet;
 }
 
 /* The desc of a body whose positions are borrowed. */

@@ -17,7 +17,6 @@
 #include "base/boxes.hpp"
 #include "internal/meshes.hpp"
 #include "program.hpp"
-#include "scenes/bodies.h"
 #include "scenes/counters.h"
 #include "stages/smooth_ball.hpp"
 #include "timing.h"
@@ -32,7 +31,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -44,9 +43,6 @@ using bench::must;
 using vox::Vec3f;
 
 using Parameters = std::array<double, 4>;
-
-// The length of an edge is about 1 in all scenes but the slivers'.
-constexpr double margin = 0.5, step_length = 2;
 
 enum class What { depth, edges, margin, passages };
 constexpr const char* names[] = {"depth", "edges", "margin", "passages"};
@@ -72,27 +68,6 @@ Mesh self(Mesh mesh) {
 Bodies noise(const Setting& setting, const Parameters& p, Random& random) {
     Mesh mesh = ball(setting.tets * (0.2 + 0.8 * p[1]));
     jitter(mesh, 1.5 * p[0], random);
-    return {self(std::move(mesh))};
-}
-
-// One body pressed flat, or through itself.
-Bodies squash(const Setting& setting, const Parameters& p, Random& random) {
-    Mesh mesh = ball(setting.tets);
-    for (Vec3f& v : mesh.positions) v.z *= float(1.2 * p[0] - 0.6);
-    jitter(mesh, 0.5 * p[1], random);
-    return {self(std::move(mesh))};
-}
-
-// One body, of which some vertices are far away.
-Bodies fling(const Setting& setting, const Parameters& p, Random& random) {
-    double radius = 0;
-    Mesh mesh = ball(setting.tets, &radius);
-    for (Vec3f& v : mesh.positions) {
-        if (random.unit() >= 0.5 * p[0] * p[0]) continue;
-        const double far = 3 * radius * p[1];
-        v = {v.x + random.uniform(-far, far), v.y + random.uniform(-far, far),
-             v.z + random.uniform(-far, far)};
-    }
     return {self(std::move(mesh))};
 }
 
@@ -206,19 +181,22 @@ Bodies crumple(const Setting& setting, const Parameters& p, Random& random) {
     return {self(std::move(mesh))};
 }
 
-// Sheets of slivers laid across each other: their boxes overlap, and little touches.
+// Two sheets of long thin tetrahedra, at an angle to each other and to the axes.
 Bodies slivers(const Setting& setting, const Parameters& p, Random&) {
     Bodies bodies(2);
     const auto count = std::uint32_t(setting.tets / 2);
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-        body sheet = make_slivers(count, 200 * p[0] + 1, 0.02, 0.1 * p[1], 0.7 + double(i) * 3 * p[2]);
-        for (std::uint32_t v = 0; v < 4 * count; ++v) {
-            const float* at = sheet.positions + 3 * v;
-            bodies[i].positions.push_back({at[0], at[1], at[2] + float(i) * float(0.02 + margin * 2 * p[3])});
+    const double length = count * std::pow(10, -2 * p[2]);
+    for (std::uint32_t i = 0; i < 2 * count; ++i) {
+        const double side = i / count, y = i % count - count / 2.0, z = 1.5 * p[1] * side;
+        Mesh& mesh = bodies[i / count];
+        const auto v = std::uint32_t(mesh.positions.size());
+        for (const Vec3f& c : {Vec3f{-1, 0, 0}, {-1, 0.5f, 0}, {1, 0, 0.25f}, {1, 0.5f, 0.25f}}) {
+            const Vec3f at = turned({float(length / 2) * c.x, float(y) + c.y, float(z) + c.z},
+                                    std::numbers::pi / 2 * p[0] * side),
+                        on = turned({at.y, at.z, at.x}, std::numbers::pi / 2 * p[3]);
+            mesh.positions.push_back(turned({on.z, on.x, on.y}, 0.6));
         }
-        for (std::uint32_t t = 0; t < count; ++t)
-            bodies[i].tets.push_back({{4 * t, 4 * t + 1, 4 * t + 2, 4 * t + 3}});
-        free_body(&sheet);
+        mesh.tets.push_back({{v, v + 1, v + 2, v + 3}});
     }
     return bodies;
 }
@@ -228,8 +206,6 @@ struct Kind {
     Bodies (*make)(const Setting&, const Parameters&, Random&);
 };
 constexpr Kind kinds[] = {{"noise", noise},
-                          {"squash", squash},
-                          {"fling", fling},
                           {"fold", fold},
                           {"crumple", crumple},
                           {"swallow", swallow},
@@ -242,6 +218,9 @@ constexpr Kind kinds[] = {{"noise", noise},
                           {"bunny in cow", swallow_bunny}};
 
 // ---- measuring --------------------------------------------------------------------------------------
+
+// The length of an edge is about 1 in all scenes.
+constexpr double margin = 0.5, step_length = 2;
 
 Bodies before(Bodies bodies) {
     for (std::size_t b = 1; b < bodies.size(); b += 2)
@@ -462,6 +441,10 @@ void run(const Options& options) {
 
 int main(int argc, char** argv) {
     Options options;
+    const std::map<std::string, int*> numbers = {
+        {"--samples", &options.samples}, {"--climb", &options.climb}, {"--steps", &options.steps}};
+    const std::map<std::string, std::string*> texts = {{"--scene", &options.scene},
+                                                       {"--meshes", &options.meshes}};
     bool known = argc % 2 == 1;
     for (int i = 1; i + 1 < argc && known; i += 2) {
         const std::string option = argv[i], value = argv[i + 1];
@@ -471,20 +454,12 @@ int main(int argc, char** argv) {
             options.what = static_cast<What>(name - std::begin(names));
         } else if (option == "--tets")
             options.tets = std::atof(value.c_str());
-        else if (option == "--samples")
-            options.samples = std::atoi(value.c_str());
-        else if (option == "--climb")
-            options.climb = std::atoi(value.c_str());
-        else if (option == "--steps")
-            options.steps = std::atoi(value.c_str());
-        else if (option == "--seed")
-            options.seed = std::strtoull(value.c_str(), nullptr, 10);
-        else if (option == "--budget")
-            options.budget = std::strtoull(value.c_str(), nullptr, 10);
-        else if (option == "--scene")
-            options.scene = value;
-        else if (option == "--meshes")
-            options.meshes = value;
+        else if (option == "--seed" || option == "--budget")
+            (option == "--seed" ? options.seed : options.budget) = std::strtoull(value.c_str(), nullptr, 10);
+        else if (numbers.count(option))
+            *numbers.at(option) = std::atoi(value.c_str());
+        else if (texts.count(option))
+            *texts.at(option) = value;
         else
             known = false;
     }

@@ -42,7 +42,7 @@ struct Counters {
     std::uint64_t total_touches_ended = 0;
     std::uint64_t edges = 0;               // 0 without VOX_GRID_EDGES, as are the next two
     std::uint64_t carried_edges = 0;       // part of `edges` carried over from the step before
-    std::uint64_t edge_candidates = 0;     // edges and faces whose boxes overlap
+    std::uint64_t edge_candidates = 0;     // edges and faces whose boxes overlap, also along slivers
     std::uint64_t proximities = 0;         // 0 without a margin (vox_grid_set_margin), as is the next one
     std::uint64_t carried_proximities = 0; // part of `proximities` carried over from the step before
     std::uint64_t constraints = 0;         // that were found last; 0 where none were looked for

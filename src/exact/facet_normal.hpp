@@ -4,6 +4,7 @@
 #include "base/vectors.hpp"
 #include "exact/predicates.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 
@@ -27,6 +28,20 @@ struct Stretch {
     Vec3d direction;
 };
 
+// The unit normal of triangle abc, to the side from which it is counter-clockwise; zero if it has no area. A
+// difference to a far corner may not tell two others apart: sides that are nearly parallel are taken from an
+// end of the shortest.
+inline Vec3d triangle_normal(const Vec3d& a, const Vec3d& b, const Vec3d& c) noexcept {
+    const Vec3d ab = b - a, bc = c - b, ca = a - c;
+    const Vec3d across = cross(scaled(ab), scaled(c - a));
+    if (length(across) > 0x1p-40) return normalised(across);
+    const double of_ab = largest_coordinate(ab), of_bc = largest_coordinate(bc),
+                 of_ca = largest_coordinate(ca);
+    const bool from_b = of_ca >= std::max(of_ab, of_bc), from_c = !from_b && of_ab >= of_bc;
+    const Vec3d &u = from_b ? ab : from_c ? bc : ca, &v = from_b ? bc : from_c ? ca : ab;
+    return normalised(scaled(cross(scaled(u), scaled(v))));
+}
+
 // The unit normal of triangle abc out of the tetrahedron abcd. If that is flat, the normal points away from
 // p; if p is in the plane of the triangle, too, to the side from which abc is counter-clockwise. If the
 // triangle has no area, the normal is along `way`, or (0, 0, 1) if that is zero.
@@ -35,7 +50,7 @@ inline Vec3d facet_normal(Vec3d a, Vec3d b, Vec3d c, const Vec3d& d, const Vec3d
     int side = orientation(a, b, c, d, exact_tests);
     if (side == 0) side = orientation(a, b, c, p, exact_tests);
     if (side > 0) std::swap(b, c);
-    Vec3d normal = normalised(cross(scaled(b - a), scaled(c - a)));
+    Vec3d normal = triangle_normal(a, b, c);
     if (!(length(normal) > 0)) normal = normalised(scaled(way));
     if (!(length(normal) > 0)) normal = {0, 0, 1};
     return normal;

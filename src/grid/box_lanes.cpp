@@ -35,15 +35,14 @@ void FindFaces(const Box* HWY_RESTRICT boxes, std::size_t count, const FaceBoxes
     }
 }
 
-// What is no number, or infinite, is beyond nothing: both ends are compared, rather than the larger one.
 void KeepNear(const Segment* HWY_RESTRICT segments, std::size_t count, const FaceSlabs& faces, float reach,
               std::uint32_t* HWY_RESTRICT met) {
     const hn::CappedTag<float, 16> d;
     using V = hn::Vec<decltype(d)>;
     for (std::size_t i = 0; i < count; ++i) {
         if (met[i] == 0) continue;
-        const Vec3f from = nearest_floats(segments[i].from - faces.origin),
-                    to = nearest_floats(segments[i].to - faces.origin);
+        const Vec3f from = nearest_floats(FaceSlabs::scale * (segments[i].from - faces.origin)),
+                    to = nearest_floats(FaceSlabs::scale * (segments[i].to - faces.origin));
         std::uint64_t apart = 0;
         for (std::size_t k = 0; k < FaceBoxes::count; k += hn::Lanes(d)) {
             for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -54,7 +53,7 @@ void KeepNear(const Segment* HWY_RESTRICT segments, std::size_t count, const Fac
                                       hn::MulAdd(y, hn::Set(d, p.y), hn::Mul(z, hn::Set(d, p.z))));
                 };
                 const V p = along(from), q = along(to);
-                const V by = hn::Set(d, reach);
+                const V by = hn::Set(d, float{FaceSlabs::scale} * reach);
                 const V lo = hn::Sub(hn::LoadU(d, faces.lo[axis] + k), by),
                         hi = hn::Add(hn::LoadU(d, faces.hi[axis] + k), by);
                 const auto above = hn::And(hn::Gt(p, hi), hn::Gt(q, hi));

@@ -28,8 +28,9 @@ struct FaceBoxes {
 void find_faces(const Box* boxes, std::size_t count, const FaceBoxes& faces, std::uint32_t face_count,
                 std::uint32_t* out) noexcept;
 
-// Oriented boxes of the faces, as seen from `origin`.
+// Oriented boxes of the faces, as seen from `origin`, and so small that sums of floats do not overflow.
 struct FaceSlabs {
+    static constexpr double scale = 0x1p-3;
     Vec3d origin;
     alignas(64) float axis[3][3][FaceBoxes::count] = {}; // axis, coordinate, face
     alignas(64) float lo[3][FaceBoxes::count] = {}, hi[3][FaceBoxes::count] = {};

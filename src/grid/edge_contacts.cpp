@@ -207,7 +207,7 @@ bool EdgeContacts::test(const StepScene& scene, LoadedTile& edges, LoadedTile& f
     }
     if (count == 0) return true;
     find_faces(boxes.data(), count, faces.faces, faces.tile->face_count, met.data());
-    const std::uint32_t pairs = count_pairs(std::span(met).first(count));
+    std::uint32_t pairs = count_pairs(std::span(met).first(count));
     if (pairs == 0) return true;
     if (pairs > crowd && !worker.is_crowded) return false;
     for (LoadedTile* tile : {&edges, &faces}) {
@@ -224,11 +224,12 @@ bool EdgeContacts::test(const StepScene& scene, LoadedTile& edges, LoadedTile& f
             segments[i] = {edges.points[edges.ends[near[i]][0]], edges.points[edges.ends[near[i]][1]]};
         keep_near(segments.data(), count, faces.slabs,
                   16 * (bodies_[edges.body].grow + bodies_[faces.body].grow), met.data());
+        pairs = count_pairs(std::span(met).first(count));
     }
+    worker.candidates += pairs;
     const bool is_self = edges.body == faces.body;
     for (std::uint32_t i = 0; i < count; ++i) {
         const std::uint32_t edge = near[i];
-        worker.candidates += static_cast<std::uint64_t>(std::popcount(met[i]));
         const auto& [u, v] = edges.ends[edge];
         const Vec3d &p = edges.points[u], &q = edges.points[v];
         const std::uint32_t low = edges.vertices[u], high = edges.vertices[v];
@@ -292,7 +293,7 @@ void EdgeContacts::decide(const StepScene& scene, const LoadedTile& edges, std::
                     body.positions.exact(behind.v[faces.features->facets[place]]), worker.exact_tests);
     if (inside == 0) inside = orientation(corner[0], corner[1], corner[2], p, worker.exact_tests);
     const std::size_t second = inside > 0 ? 2 : 1, third = 3 - second;
-    Vec3d normal = normalised(cross(scaled(corner[second] - corner[0]), scaled(corner[third] - corner[0])));
+    Vec3d normal = triangle_normal(corner[0], corner[second], corner[third]);
     if (!(length(normal) > 0)) normal = {0, 0, 1};
     const EdgeContact contact{
         .body_a = scene.bodies[edges.body].mesh_id,

@@ -29,7 +29,7 @@ Vec3d normal_to(const Vec3d& p, const Vec3d (&corner)[3], const SeenPoint& seen,
     if (largest(away) < 0x1p-20 * reach && weight[0] > 0 && weight[1] > 0 && weight[2] > 0) {
         std::uint64_t exact_tests = 0;
         const int side = orientation(corner[0], corner[1], corner[2], p, exact_tests);
-        Vec3d normal = normalised(cross(scaled(corner[1] - corner[0]), scaled(corner[2] - corner[0])));
+        Vec3d normal = triangle_normal(corner[0], corner[1], corner[2]);
         if (side < 0) normal = -1.0 * normal;
         if (side != 0 && length(normal) > 0) return normal;
     }

@@ -80,8 +80,8 @@ void load_slabs(const SurfaceFeatures& features, const SurfaceTile& tile, const 
             const double w[3] = {box.axis[k].x, box.axis[k].y, box.axis[k].z},
                          at = dot(box.axis[k], box.middle);
             for (std::size_t i = 0; i < 3; ++i) out.axis[k][i][f] = static_cast<float>(w[i]);
-            out.lo[k][f] = static_cast<float>(at - box.half[k]);
-            out.hi[k][f] = static_cast<float>(at + box.half[k]);
+            out.lo[k][f] = static_cast<float>(FaceSlabs::scale * (at - box.half[k]));
+            out.hi[k][f] = static_cast<float>(FaceSlabs::scale * (at + box.half[k]));
         }
     }
 }

@@ -51,9 +51,9 @@ bool stay_apart(const MovingBox& a, const MovingBox& b, float reach, double unti
 // Half of how far apart two bodies with this box can be, as boxes of floats show it.
 float growth(const Box& box, double margin) noexcept;
 
-// A tile of which as many features overlap others, by their boxes, in one look is crowded: it is worth an
-// oriented box. Slivers laid across each other overlap all, and touch nothing.
-inline constexpr std::uint32_t crowd = 512;
+// A tile of which more features than this overlap those of another, by their boxes, is crowded: it is worth
+// an oriented box. Slivers laid across each other overlap all, and touch nothing.
+inline constexpr std::uint32_t crowd = 768;
 inline std::uint32_t count_pairs(std::span<const std::uint32_t> met) noexcept {
     std::uint32_t pairs = 0;
     for (const std::uint32_t bits : met) pairs += static_cast<std::uint32_t>(std::popcount(bits));

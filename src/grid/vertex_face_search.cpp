@@ -35,27 +35,52 @@ Vec3d middle_of(const Box& box) noexcept {
     return 0.5 * (Vec3d{box.lo[0], box.lo[1], box.lo[2]} + Vec3d{box.hi[0], box.hi[1], box.hi[2]});
 }
 
-// Slabs of the faces of a tile, made when they are first needed.
-struct TileSlabs {
-    bool are_made = false;
-    FaceSlabs slabs;
+// A tile of faces of b whose boxes so many vertices of a meet that it is worth a box along its length, and
+// then boxes of its faces. Of two bodies that stand still.
+class CrowdedTile {
+public:
+    CrowdedTile(const SearchedBody& a, const SearchedBody& b) noexcept
+        : body_(b), reach_(a.grow + b.grow),
+          lanes_reach_(reach_ + 16 * (growth(a.box, 0) + growth(b.box, 0))) {}
 
-    // keep_near() for the low corners of boxes.
-    void keep(const SearchedBody& body, const SurfaceTile& tile, std::span<const Box> boxes, float reach,
-              std::uint32_t* met) {
-        if (!are_made) {
-            std::array<Vec3d, SurfaceTile::most_vertices> corners;
-            load_still(body, tile, corners.data());
-            load_slabs(*body.features, tile, corners.data(), slabs);
-            are_made = true;
-        }
-        std::array<Segment, NearFaces::at_once> segments;
-        for (std::size_t k = 0; k < boxes.size(); ++k) {
-            const Vec3d p{boxes[k].lo[0], boxes[k].lo[1], boxes[k].lo[2]};
-            segments[k] = {p, p};
-        }
-        keep_near(segments.data(), boxes.size(), slabs, reach, met);
+    void begin(std::uint32_t tile) noexcept {
+        tile_ = tile;
+        has_box_ = has_slabs_ = false;
     }
+    bool is_apart(const Box& other) const noexcept {
+        return has_box_ && apart_along_axes(around_, oriented_box(other), double{reach_});
+    }
+    // Takes faces that are apart out of those that vertices meet.
+    void thin_out(std::span<const Box> vertices, std::uint32_t* met) noexcept {
+        const auto is_crowd = [&] { return count_pairs({met, vertices.size()}) > crowd / 4; };
+        if (!is_crowd()) return;
+        if (!has_box_) {
+            around_ = oriented_box(body_, tile_);
+            has_box_ = true;
+            for (std::size_t k = 0; k < vertices.size(); ++k)
+                if (is_apart(vertices[k])) met[k] = 0;
+            if (!is_crowd()) return;
+        }
+        if (!has_slabs_) {
+            std::array<Vec3d, SurfaceTile::most_vertices> corners;
+            load_still(body_, body_.features->tiles[tile_], corners.data());
+            load_slabs(*body_.features, body_.features->tiles[tile_], corners.data(), slabs_);
+        }
+        has_slabs_ = true;
+        for (std::size_t k = 0; k < vertices.size(); ++k) {
+            const float* const p = vertices[k].lo;
+            const Segment point{{p[0], p[1], p[2]}, {p[0], p[1], p[2]}};
+            keep_near(&point, 1, slabs_, lanes_reach_, &met[k]);
+        }
+    }
+
+private:
+    const SearchedBody& body_;
+    float reach_, lanes_reach_;
+    std::uint32_t tile_ = 0;
+    bool has_box_ = false, has_slabs_ = false;
+    OrientedBox around_{};
+    FaceSlabs slabs_{};
 };
 
 } // namespace
@@ -239,9 +264,8 @@ void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Lists& lists, 
     const SearchedBody &a = bodies_[pair.a], &b = bodies_[pair.b];
     const float reach = a.grow + b.grow;
     const bool is_moving = moves(pair);
-    const float lanes_reach = reach + 16 * (growth(a.box, 0) + growth(b.box, 0));
     FaceBoxes faces;
-    TileSlabs slabs;
+    CrowdedTile crowded(a, b);
     // Vertices in the box of a tile, by their places.
     std::array<std::uint32_t, at_once> places, met_faces;
     std::array<Box, at_once> boxes;
@@ -257,12 +281,8 @@ void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Lists& lists, 
         const auto may_meet = [&](const MovingBox& other, double until = 1) {
             return !stay_apart(other, moving, reach, until);
         };
-        bool is_loaded = false, is_crowded = false;
-        slabs.are_made = false;
-        OrientedBox oriented;
-        const auto is_apart = [&](const Box& other) {
-            return is_crowded && apart_along_axes(oriented, oriented_box(other), double{reach});
-        };
+        bool is_loaded = false;
+        crowded.begin(lists.tiles[i]);
         std::uint32_t count = 0;
         const auto compare = [&] {
             if (!is_loaded) {
@@ -272,17 +292,7 @@ void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Lists& lists, 
             }
             is_loaded = true;
             find_faces(boxes.data(), count, faces, tile.face_count, met_faces.data());
-            const auto is_crowd = [&] {
-                return !is_moving && count_pairs(std::span(met_faces).first(count)) > crowd;
-            };
-            if (!is_crowded && is_crowd()) {
-                oriented = oriented_box(b, lists.tiles[i]);
-                is_crowded = true;
-                for (std::uint32_t k = 0; k < count; ++k)
-                    if (is_apart(boxes[k])) met_faces[k] = 0;
-            }
-            if (is_crowded && is_crowd())
-                slabs.keep(b, tile, std::span(boxes).first(count), lanes_reach, met_faces.data());
+            if (!is_moving) crowded.thin_out(std::span(boxes).first(count), met_faces.data());
             std::size_t found = 0;
             for (std::uint32_t k = 0; k < count; ++k) {
                 near[found] = {places[k], met_faces[k]};
@@ -292,15 +302,16 @@ void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Lists& lists, 
             count = 0;
         };
         const auto enter = [&](std::size_t group) {
-            return !is_apart(lists.runs.groups[group]) &&
+            return !crowded.is_apart(lists.runs.groups[group]) &&
                    (!is_moving || may_meet(lists.moving_groups[group]));
         };
         lists.runs.for_overlaps(box, enter, [&](std::size_t run) {
-            if (is_apart(lists.runs.boxes[run]) || (is_moving && !may_meet(lists.moving_runs[run]))) return;
+            if (crowded.is_apart(lists.runs.boxes[run]) || (is_moving && !may_meet(lists.moving_runs[run])))
+                return;
             for (std::uint32_t k = lists.first_of_run[run]; k < lists.first_of_run[run + 1]; ++k) {
                 places[count] = k;
                 boxes[count] = a.vertex_box(lists.vertices[k]);
-                count += overlap(boxes[count], box) && !is_apart(boxes[count]) &&
+                count += overlap(boxes[count], box) && !crowded.is_apart(boxes[count]) &&
                          (!is_moving || may_meet(a.moving_vertex(lists.vertices[k]), latest(k, worker)));
                 if (count == at_once) compare();
             }

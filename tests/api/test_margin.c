@@ -149,31 +149,6 @@ START_TEST(as_queries_find_them) {
 }
 END_TEST
 
-/* Sheets of slivers laid across each other, some within the margin and some not: nearly all boxes of vertices
- * and faces overlap, but few distances are computed. */
-START_TEST(slivers) {
-    uint64_t found = 0;
-    for (int scene = 0; scene < 8; ++scene) {
-        const double across = 0.4 + 0.3 * scene, thick = scene == 5 ? 0 : 0.004 * (1 + scene);
-        const double apart = scene % 2 == 0 ? 0.12 : 0.04;
-        margin_scene s = {0};
-        vox_grid* grid = margin_grid(0.05);
-        insert_body(&s, grid, make_slivers(150, 30, thick, scene == 3 ? 0 : 0.05, 0.3));
-        insert_body(&s, grid, make_slivers(150, 30, thick, 0.05, 0.3 + across));
-        move_body(&s.bodies[1], 0.1, 0.2, apart + thick);
-        ck_ok(vox_grid_step(grid));
-        const uint64_t near = check_margin(&s, grid, 0.05);
-        ck_assert_int_eq(near > 0, scene % 2 != 0);
-        ck_assert_uint_lt(counters_of(grid).face_candidates,
-                          near > 0 ? 20000 : 1000); /* boxes: some 700,000 */
-        found += near;
-        vox_grid_destroy(grid);
-        free_margin_scene(&s);
-    }
-    ck_assert_uint_gt(found, 100);
-}
-END_TEST
-
 /* Two boxes face to face: which vertices, how far, and which way. */
 START_TEST(boxes_face_to_face) {
     margin_scene s = {0};
@@ -491,9 +466,9 @@ START_TEST(budget) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_each(tests, as_queries_find_them, slivers, boxes_face_to_face, many_small_bodies,
-                   filters_and_pairs, at_rest_and_edited, workers, arguments, after_a_failure,
-                   off_releases_its_memory, steady_state_allocates_nothing, without_memory, budget);
+    tcase_add_each(tests, as_queries_find_them, boxes_face_to_face, many_small_bodies, filters_and_pairs,
+                   at_rest_and_edited, workers, arguments, after_a_failure, off_releases_its_memory,
+                   steady_state_allocates_nothing, without_memory, budget);
 }
 
 SUITE(margin) { add_for_each_engine(suite, add_tests); }

@@ -2,6 +2,9 @@
 // counting facets, every pair decided by find_crossing(), which test_crossing compares with rational numbers.
 //
 // Environment: VOX_EDGE_SCENES, how many.
+#include "base/boxes.hpp"
+#include "base/vectors.hpp"
+#include "exact/closest_point.hpp"
 #include "exact/crossing.hpp"
 #include "internal/random.hpp"
 #include "scenes/bodies.h"
@@ -404,40 +407,172 @@ START_TEST(large_bodies_equal_the_definition) {
 }
 END_TEST
 
-// Sheets of slivers laid across each other, so that nearly all boxes of edges and faces overlap: what is
-// looked at is a small part of that where little crosses. Some are flat, some lie on each other, and some of
-// both sheets cross.
-START_TEST(slivers_equal_the_definition) {
-    constexpr std::uint32_t count = 100;
-    std::size_t crossing = 0;
-    Random r{5};
-    for (int scene = 0; scene < 12; ++scene) {
-        const double length = 20 + 40 * r.unit(), thick = scene % 4 == 3 ? 0 : 0.001 + 0.02 * r.unit(),
-                     spacing = scene % 5 == 4 ? 0 : 0.02 + 0.08 * r.unit(), angle = r.unit(),
-                     across = 0.5 + 2 * r.unit();
-        const double apart = scene % 3 == 0 ? 0 : 0.03 + 0.2 * r.unit();
-        std::vector<TestMesh> meshes(2);
-        for (std::size_t i = 0; i < meshes.size(); ++i) {
-            body b = make_slivers(count, length, thick, spacing, i == 0 ? angle : angle + across);
-            move_body(&b, i == 0 ? 0 : 0.1, 0, i == 0 ? 0 : apart);
-            meshes[i].positions.assign(b.positions, b.positions + 3 * b.vertex_count);
-            meshes[i].tets.assign(b.tets, b.tets + 4 * b.tet_count);
-            meshes[i].on.assign(b.tet_count, 1);
-            meshes[i].round();
-            free_body(&b);
+// ---- slivers ----------------------------------------------------------------------------------------
+
+// Long thin tetrahedra side by side, turned by `angle`, some of them flat, some twice, under one rotation.
+TestMesh make_slivers(Random& r, double length, double angle, double height, const double (&turn)[3],
+                      double scale) {
+    TestMesh mesh;
+    mesh.doubles = r.below(2) == 0;
+    const double thick = r.below(3) > 0 ? 0.3 * r.unit() : 0, slope = r.below(2) ? 0.1 * r.unit() : 0;
+    std::uint64_t same = 0;
+    for (int i = 0; i < 48; ++i) {
+        if (r.below(8) > 0) same = r.next();
+        Random own{same};
+        const double y = i - 24.0, tilt = slope * (own.unit() - 0.5);
+        const double corners[4][3] = {
+            {-0.5, -0.4, 0}, {-0.5, 0.4, 0}, {0.5, tilt, -thick}, {0.5, tilt, thick}};
+        for (const auto& corner : corners) {
+            double p[3] = {length * corner[0], y + corner[1], height + corner[2]};
+            for (std::size_t axis = 0; axis < 4; ++axis) { // about z, then about each axis
+                const double by = axis == 0 ? angle : turn[axis - 1], c = std::cos(by), s = std::sin(by);
+                double &u = p[axis % 3], &v = p[(axis + 1) % 3];
+                std::tie(u, v) = std::pair(c * u - s * v, s * u + c * v);
+            }
+            for (const double x : p) mesh.positions.push_back(scale * x);
         }
-        const std::vector<Expected> expected = brute_force(meshes, {});
-        crossing += expected.size();
+        const auto v = static_cast<std::uint32_t>(4 * i);
+        for (std::uint32_t k = r.below(8) ? 1 : 2; k > 0; --k)
+            mesh.tets.insert(mesh.tets.end(), {v, v + 1, v + 2, v + 3});
+    }
+    mesh.on.assign(mesh.tet_count(), 1);
+    mesh.round();
+    return mesh;
+}
+
+struct BoxOf {
+    Vec3d min, max;
+};
+
+// How many features there are whose boxes, `reach` apart, overlap; and the proximities, by definition.
+struct Slivers {
+    std::uint64_t edge_pairs = 0, face_pairs = 0;
+    std::map<std::array<std::uint32_t, 3>, double> near; // distance of body_a, vertex, body_b
+
+    Slivers(const vox_grid* grid, const std::vector<TestMesh>& meshes, double margin) {
+        const vox_contact_view contacts = contacts_of(grid);
+        for (std::size_t a = 0; a < 2; ++a) {
+            const TestMesh &of_a = meshes[a], &of_b = meshes[1 - a];
+            const SurfaceOf from = surface_of(of_a), surface = surface_of(of_b);
+            for (const auto& [face, behind] : surface.faces) {
+                const Vec3d u = of_b.at(face[0]), v = of_b.at(face[1]), w = of_b.at(face[2]);
+                const BoxOf box{min(min(u, v), w), max(max(u, v), w)};
+                const auto overlaps = [&](const Vec3d& p, const Vec3d& q, double reach) {
+                    const Vec3d lo = min(p, q) - box.max, hi = box.min - max(p, q);
+                    return std::max({lo.x, lo.y, lo.z, hi.x, hi.y, hi.z}) <= reach;
+                };
+                for (const Edge& edge : from.edges)
+                    edge_pairs += overlaps(of_a.at(edge[0]), of_a.at(edge[1]), 0);
+                for (std::uint32_t i = 0; i < of_a.vertex_count(); ++i) {
+                    const Vec3d p = of_a.at(i);
+                    if (!overlaps(p, p, margin)) continue;
+                    ++face_pairs;
+                    const double squared = std::max(closest_seen_from(p, u, v, w).at.squared_distance,
+                                                    squared_distance_bound(p, box));
+                    if (squared > margin * margin) continue;
+                    const auto at = near.emplace(std::array{of_a.id, i, of_b.id}, HUGE_VAL).first;
+                    at->second = std::min(at->second, std::sqrt(squared));
+                }
+            }
+        }
+        for (std::uint64_t i = 0; i < contacts.count; ++i)
+            near.erase({contacts.data[i].body_a, contacts.data[i].vertex, contacts.data[i].body_b});
+    }
+};
+
+// Edges that end in a face with two corners that a difference to the third one does not tell apart.
+START_TEST(normals_of_mixed_coordinates) {
+    for (std::uint32_t first = 0; first < 3; ++first) {
+        std::vector<TestMesh> meshes(2);
+        meshes[0].positions = {5e29, 0, 5e29, 5e29, -1e30, 5e29, 2e30, -1e30, 0, 2e30, -1e30, 1e30};
+        const double corners[3][3] = {{1e30, 0, 1e30}, {1e-30, 0, 0}, {0, 0, 1e-30}};
+        for (std::uint32_t i = 0; i < 3; ++i) {
+            const double(&c)[3] = corners[(first + i) % 3];
+            meshes[1].positions.insert(meshes[1].positions.end(), c, c + 3);
+        }
+        for (const double apex : {0.0, 1e30, 0.0}) meshes[1].positions.push_back(apex);
         vox_grid_desc desc = vox_default_grid_desc();
-        desc.flags = VOX_GRID_EDGES | VOX_GRID_CONSTRAINTS;
-        vox_grid* grid = grid_of(&desc);
-        for (TestMesh& mesh : meshes) mesh.id = insert(grid, mesh);
+        desc.flags = VOX_GRID_EDGES;
+        vox_grid* const grid = grid_of(&desc);
+        for (TestMesh& mesh : meshes) {
+            mesh.tets = {0, 1, 2, 3};
+            mesh.doubles = true;
+            mesh.id = insert(grid, mesh);
+        }
         ck_ok(vox_grid_step(grid));
-        check_edges(grid, meshes, expected, true);
-        if (apart > 0) ck_assert_uint_lt(counters_of(grid).edge_candidates, 1000); // boxes: 100,000 and more
+        vox_constraint_desc bare = vox_default_constraint_desc();
+        bare.method = VOX_DEPTH_METHOD_NONE;
+        ck_ok(vox_grid_find_constraints(grid, &bare));
+        const vox_constraint_view view = constraints_of(grid);
+        int found = 0;
+        for (std::uint64_t i = 0; i < view.count; ++i) {
+            const vox_constraint& c = view.data[i];
+            const std::uint32_t* const v = c.vertices;
+            if (c.kind != VOX_CONSTRAINT_EDGE || c.body_a != meshes[0].id || v[0] != 0 ||
+                v[2] + v[3] + v[4] != 3)
+                continue;
+            ck_assert_double_eq_tol(c.normal[1], -1, 1e-9);
+            ++found;
+        }
+        ck_assert_int_eq(found, 3);
         vox_grid_destroy(grid);
     }
-    ck_assert_uint_gt(crossing, 1000);
+}
+END_TEST
+
+// Sheets of slivers across each other, near the ends of what floats hold, too: the boxes of nearly all
+// features overlap, and few are decided.
+START_TEST(slivers_equal_the_definition) {
+    std::uint64_t edges = 0, near = 0, edge_candidates = 0, face_candidates = 0, edge_pairs = 0,
+                  face_pairs = 0;
+    for (std::uint64_t seed = 1; seed <= 32; ++seed) {
+        Random r{seed};
+        const double length = std::pow(10, 1.5 + 1.5 * r.unit()),
+                     turn[3] = {3 * r.unit(), 3 * r.unit(), 3 * r.unit()};
+        const double scale = seed % 4 == 0   ? 5e35
+                             : seed % 4 == 1 ? 1e-30
+                                             : 1,
+                     margin = scale * r.unit(), height = r.below(6) ? 0.6 + r.unit() : 0.1;
+        std::vector<TestMesh> meshes{make_slivers(r, length, 0, 0, turn, scale),
+                                     make_slivers(r, length, 1.5 * r.unit(), height, turn, scale)};
+        const std::vector<Expected> expected = brute_force(meshes, {});
+        for (const std::uint32_t workers : {1u, 3u}) {
+            vox_grid_desc desc = vox_default_grid_desc();
+            desc.flags = VOX_GRID_EDGES;
+            desc.margin = margin;
+            desc.worker_count = workers;
+            vox_grid* const grid = grid_of(&desc);
+            for (TestMesh& mesh : meshes) mesh.id = insert(grid, mesh);
+            ck_ok(vox_grid_step(grid));
+            vox_constraint_desc bare = vox_default_constraint_desc();
+            bare.method = VOX_DEPTH_METHOD_NONE;
+            ck_ok(vox_grid_find_constraints(grid, &bare));
+            check_edges(grid, meshes, expected, false);
+            const Slivers slivers(grid, meshes, margin);
+            const vox_constraint_view view = constraints_of(grid);
+            std::size_t found = 0;
+            for (std::uint64_t i = 0; i < view.count; ++i) {
+                const vox_constraint& c = view.data[i];
+                if (c.kind != VOX_CONSTRAINT_PROXIMITY) continue;
+                const auto at = slivers.near.find({c.body_a, c.vertices[0], c.body_b});
+                ck_assert(at != slivers.near.end());
+                ck_assert_double_eq_tol(c.gap, at->second, 1e-9 * scale);
+                ++found;
+            }
+            ck_assert_uint_eq(found, slivers.near.size());
+            edges += expected.size();
+            near += found;
+            edge_pairs += slivers.edge_pairs;
+            face_pairs += slivers.face_pairs;
+            edge_candidates += counters_of(grid).edge_candidates;
+            face_candidates += counters_of(grid).face_candidates;
+            vox_grid_destroy(grid);
+        }
+    }
+    ck_assert_uint_gt(edges, 1000);
+    ck_assert_uint_gt(near, 300);
+    ck_assert_uint_lt(10 * edge_candidates, edge_pairs);
+    ck_assert_uint_lt(5 * face_candidates, face_pairs);
 }
 END_TEST
 
@@ -446,5 +581,5 @@ END_TEST
 SUITE(edge_definition) {
     TCase* tests = add_case(suite, "definition");
     tcase_add_each(tests, random_scenes_equal_the_definition, large_bodies_equal_the_definition,
-                   slivers_equal_the_definition);
+                   slivers_equal_the_definition, normals_of_mixed_coordinates);
 }
