@@ -86,9 +86,7 @@ pub mod depth_state {
 
 /// Values of [`Location::state`].
 pub mod location_state {
-    pub use voxtet_sys::{
-        VOX_LOCATION_INSIDE as INSIDE, VOX_LOCATION_NONE as NONE, VOX_LOCATION_OUTSIDE as OUTSIDE,
-    };
+    pub use voxtet_sys::{VOX_LOCATION_INSIDE as INSIDE, VOX_LOCATION_NONE as NONE, VOX_LOCATION_OUTSIDE as OUTSIDE};
 }
 
 /// Values of [`RayHit::side`].
