@@ -45,13 +45,11 @@ Array<std::uint64_t> order_along_curve(std::span<const Vec3d> points, double max
     const double short_step = (side.x + side.y + side.z) / 16;
     if (!(steps > short_step * static_cast<double>(points.size())) || !(max_distance > short_step))
         return order;
-    const double cells = 1023 / std::max({side.x, side.y, side.z}); // an axis
+    const double longest = std::max({side.x, side.y, side.z});
     order.reserve(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
         const Vec3d at = points[i] - low;
-        const auto cell = [cells](double x) {
-            return static_cast<std::uint32_t>(std::min(x * cells, 1023.0));
-        };
+        const auto cell = [longest](double x) { return static_cast<std::uint32_t>(x / longest * 1023); };
         order.push_back(std::uint64_t{morton_code(cell(at.x), cell(at.y), cell(at.z))} << 32 | i);
     }
     std::ranges::sort(order);
