@@ -125,7 +125,8 @@ void Queries::locations(std::span<const Vec3d> points, double max_distance, bool
         for_found(points, which, memory, [&](std::size_t point, std::span<const PointHit> found) {
             vox_location& location = out[point];
             if (location.state != VOX_LOCATION_NONE) return; // in a lower body
-            const auto interior = std::ranges::find(found, true, &PointHit::interior);
+            const auto interior =
+                std::find_if(found.begin(), found.end(), [](const PointHit& hit) { return hit.interior; });
             const PointHit& hit = interior != found.end() ? *interior : found[0];
             location = {meshes_[hit.mesh].id, hit.tet, VOX_LOCATION_INSIDE, 0, {}, 0};
             weigher.add(points[point], tets_of(leaves_[hit.leaf]), hit.place, location.weights);

@@ -47,7 +47,8 @@ void link(const Tiles& tiles, QueryTets::Links& links) {
             of[f] = {TetLink::no_tile, 0, 0, 0};
             if (other & MatchedFacets::surface_bit) continue;
             const auto back = matched.across[other];
-            const auto facet = static_cast<std::uint32_t>(std::ranges::find(back, tet) - back.begin());
+            const auto facet =
+                static_cast<std::uint32_t>(std::find(back.begin(), back.end(), tet) - back.begin());
             if (facet == 4) return links.clear();
             of[f] = places[other];
             of[f].facet = facet & 3u;
