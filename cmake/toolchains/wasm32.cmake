@@ -5,6 +5,9 @@ include(/usr/share/emscripten/cmake/Modules/Platform/Emscripten.cmake)
 set(wasm_flags -fwasm-exceptions) # those of -fexceptions go through JavaScript
 if(VOX_WASM_SIMD)
   string(APPEND wasm_flags " -msimd128")
+  # clang 14 makes wrong numbers of the plain doubles of src/depth/walk.cpp where it puts them into registers by itself. Its -O3
+  # would undo this in the flags.
+  add_compile_options(-fno-slp-vectorize)
 endif()
 set(CMAKE_C_FLAGS_INIT ${wasm_flags})
 # Debian 12's Emscripten comes with libc++ 13, which lacks a little of C++20.
