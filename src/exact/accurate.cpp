@@ -3,12 +3,12 @@
 #include "base/simd.hpp"
 
 #include <array>
-#include <bit>
 
 #undef VOX_SOURCE
 #define VOX_SOURCE "exact/accurate.cpp"
 #include "base/each_target.hpp"
 
+#include "base/lanes-inl.hpp"
 #include "exact/double_double-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -19,12 +19,6 @@ namespace HWY_NAMESPACE {
 
 // Volumes and areas below it may lose digits.
 constexpr double least_accurate = 0x1p-800;
-
-HWY_INLINE std::uint64_t BitsOf(hn::Mask<WideDoubles> mask, std::size_t i) {
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(WideDoubles(), mask, bits);
-    return std::uint64_t{bits[0]} << i;
-}
 
 HWY_INLINE void LoadPoint(const double (&from)[3][point_block], std::size_t i, WideDouble (&to)[3]) {
     for (int axis = 0; axis < 3; ++axis) to[axis] = hn::Load(WideDoubles(), from[axis] + i);
@@ -53,8 +47,8 @@ HWY_INLINE Twofold AccurateDeterminant(const Twofold& uz, const TwofoldMinor& vw
 }
 
 // Returns a bit for each point that needs exact arithmetic.
-HWY_INLINE std::uint64_t AccurateWeightsOf(const PointBlock& block, std::size_t count, bool clamped,
-                                           AccurateWeights& out) {
+std::uint64_t WeighAccurately(const PointBlock& block, std::size_t count, bool clamped,
+                              AccurateWeights& out) {
     const WideDoubles d;
     const WideDouble zero = hn::Zero(d), one = hn::Set(d, 1.0);
     std::uint64_t uncertain = 0;
@@ -78,7 +72,7 @@ HWY_INLINE std::uint64_t AccurateWeightsOf(const PointBlock& block, std::size_t 
         const WideDouble size = hn::Abs(total.high);
         const auto certain = hn::And(hn::Gt(size, hn::Mul(hn::Set(d, 0x1p-40), most)),
                                      hn::Gt(size, hn::Set(d, least_accurate)));
-        if (!hn::AllTrue(d, certain)) uncertain |= BitsOf(hn::Not(certain), i);
+        if (!hn::AllTrue(d, certain)) uncertain |= BitsOfMask(d, hn::Not(certain)) << i;
         for (int c = 0; c < 4; ++c) {
             WideDouble weight = (volume[c] / total).high;
             if (clamped) weight = hn::IfThenElse(hn::Gt(weight, zero), hn::Min(weight, one), zero);
@@ -101,7 +95,7 @@ HWY_INLINE void ClosestOnEdge(const TwofoldPoint& way, const TwofoldPoint& edge,
     squared = Dot(rest, rest);
 }
 
-HWY_INLINE std::uint64_t ClosestWeightsOf(const PointBlock& block, std::size_t count, AccurateWeights& out) {
+std::uint64_t WeighClosest(const PointBlock& block, std::size_t count, AccurateWeights& out) {
     const WideDoubles d;
     const WideDouble zero = hn::Zero(d), one = hn::Set(d, 1.0), least = hn::Set(d, least_accurate);
     std::uint64_t uncertain = 0;
@@ -120,7 +114,7 @@ HWY_INLINE std::uint64_t ClosestWeightsOf(const PointBlock& block, std::size_t c
         const WideDouble far = hn::Mul(hn::Set(d, 0x1p-80), Dot(way, way).high);
         const auto certain = hn::And(hn::And(hn::Gt(area.high, thin), hn::Gt(shortest, far)),
                                      hn::Gt(hn::Min(area.high, shortest), least));
-        if (!hn::AllTrue(d, certain)) uncertain |= BitsOf(hn::Not(certain), i);
+        if (!hn::AllTrue(d, certain)) uncertain |= BitsOfMask(d, hn::Not(certain)) << i;
         const Twofold unit = {one, zero};
         const Twofold at_1 = Dot(Cross(way, v), normal) / area, at_2 = Dot(Cross(u, way), normal) / area;
         const Twofold at_0 = unit - at_1 - at_2;
@@ -158,7 +152,7 @@ HWY_INLINE WideDouble SizeOfProducts(const TwofoldPoint& a, const TwofoldPoint& 
 }
 
 // Returns a bit for each crossing whose rounding is not certain.
-HWY_INLINE std::uint64_t CrossingsOf(const PointBlock& block, std::size_t count, Crossings& out) {
+std::uint64_t CrossPlanes(const PointBlock& block, std::size_t count, Crossings& out) {
     const WideDoubles d;
     const WideDouble least = hn::Set(d, least_accurate);
     std::uint64_t uncertain = 0;
@@ -178,7 +172,7 @@ HWY_INLINE std::uint64_t CrossingsOf(const PointBlock& block, std::size_t count,
             hn::And(hn::And(hn::Eq(hn::Add(place.high, hn::Add(place.low, error)), place.high),
                             hn::Eq(hn::Add(place.high, hn::Sub(place.low, error)), place.high)),
                     hn::Gt(hn::Min(hn::Abs(over.high), hn::Abs(under.high)), least));
-        if (!hn::AllTrue(d, certain)) uncertain |= BitsOf(hn::Not(certain), i);
+        if (!hn::AllTrue(d, certain)) uncertain |= BitsOfMask(d, hn::Not(certain)) << i;
         hn::Store(place.high, d, out.t + i);
     }
     return uncertain;
@@ -186,27 +180,14 @@ HWY_INLINE std::uint64_t CrossingsOf(const PointBlock& block, std::size_t count,
 
 #else // without registers of doubles, every point is left to exact arithmetic
 
-std::uint64_t AccurateWeightsOf(const PointBlock&, std::size_t, bool, AccurateWeights&) {
+std::uint64_t WeighAccurately(const PointBlock&, std::size_t, bool, AccurateWeights&) {
     return ~std::uint64_t{0};
 }
-std::uint64_t ClosestWeightsOf(const PointBlock&, std::size_t, AccurateWeights&) { return ~std::uint64_t{0}; }
+std::uint64_t WeighClosest(const PointBlock&, std::size_t, AccurateWeights&) { return ~std::uint64_t{0}; }
 
-std::uint64_t CrossingsOf(const PointBlock&, std::size_t, Crossings&) { return ~std::uint64_t{0}; }
+std::uint64_t CrossPlanes(const PointBlock&, std::size_t, Crossings&) { return ~std::uint64_t{0}; }
 
 #endif
-
-std::uint64_t WeighAccurately(const PointBlock& block, std::size_t count, bool clamped,
-                              AccurateWeights& out) {
-    return AccurateWeightsOf(block, count, clamped, out);
-}
-
-std::uint64_t WeighClosest(const PointBlock& block, std::size_t count, AccurateWeights& out) {
-    return ClosestWeightsOf(block, count, out);
-}
-
-std::uint64_t CrossPlanes(const PointBlock& block, std::size_t count, Crossings& out) {
-    return CrossingsOf(block, count, out);
-}
 
 } // namespace HWY_NAMESPACE
 } // namespace vox
@@ -215,36 +196,19 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace vox {
 
-namespace {
-
-// Calls work(i, points...) for each bit of the first `count`.
-template <class Work>
-void for_uncertain(std::uint64_t uncertain, const PointBlock& block, std::size_t count, Work&& work) {
-    for (uncertain &= ~std::uint64_t{0} >> (point_block - count); uncertain; uncertain &= uncertain - 1) {
-        const auto i = static_cast<std::size_t>(std::countr_zero(uncertain));
-        const auto at = [i](const double(&of)[3][point_block]) {
-            return Vec3d{of[0][i], of[1][i], of[2][i]};
-        };
-        work(i, at(block.point), at(block.corner[0]), at(block.corner[1]), at(block.corner[2]),
-             at(block.corner[3]));
-    }
-}
-
-} // namespace
-
 void weigh_accurately(const PointBlock& block, std::size_t count, bool clamped, AccurateWeights& out) {
-    for_uncertain(VOX_SIMD_DISPATCH(WeighAccurately)(block, count, clamped, out), block, count,
-                  [&out](std::size_t i, const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c,
-                         const Vec3d& d) {
-                      const std::array<double, 4> weights = exact_weights(p, a, b, c, d);
-                      for (std::size_t n = 0; n < 4; ++n) out.weight[n][i] = weights[n];
-                  });
+    const auto exactly = [&out](std::size_t i, const Vec3d& p, const Vec3d(&c)[4]) {
+        const std::array<double, 4> weights = exact_weights(p, c[0], c[1], c[2], c[3]);
+        for (std::size_t n = 0; n < 4; ++n) out.weight[n][i] = weights[n];
+    };
+    for_uncertain(VOX_SIMD_DISPATCH(WeighAccurately)(block, count, clamped, out), block, count, exactly);
 }
 
 void cross_planes(const PointBlock& block, std::size_t count, Crossings& out) {
-    for_uncertain(VOX_SIMD_DISPATCH(CrossPlanes)(block, count, out), block, count,
-                  [&out](std::size_t i, const Vec3d& from, const Vec3d& a, const Vec3d& b, const Vec3d& c,
-                         const Vec3d& to) { out.t[i] = exact_crossing(from, to, a, b, c); });
+    const auto exactly = [&out](std::size_t i, const Vec3d& from, const Vec3d(&c)[4]) {
+        out.t[i] = exact_crossing(from, c[3], c[0], c[1], c[2]);
+    };
+    for_uncertain(VOX_SIMD_DISPATCH(CrossPlanes)(block, count, out), block, count, exactly);
 }
 
 std::uint64_t weigh_closest(const PointBlock& block, std::size_t count, AccurateWeights& out) {

@@ -5,11 +5,11 @@
 #include "base/simd.hpp"
 #include "base/vectors.hpp"
 
-#include <bit>
-
 #undef VOX_SOURCE
 #define VOX_SOURCE "exact/point_location.cpp"
 #include "base/each_target.hpp"
+
+#include "base/lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace vox {
@@ -67,12 +67,6 @@ HWY_INLINE VolumesOf CornerVolumes(const PointBlock& block, std::size_t i, D (&e
     return of;
 }
 
-HWY_INLINE std::uint64_t BitsFrom(hn::Mask<Doubles> mask, std::size_t i) {
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(Doubles(), mask, bits);
-    return std::uint64_t{bits[0]} << i;
-}
-
 // locate_in_solid() for points that need no exact arithmetic.
 HWY_INLINE CertainLocations Locations(const PointBlock& block, std::size_t count, VolumeBlock& volumes) {
     const Doubles d;
@@ -95,10 +89,10 @@ HWY_INLINE CertainLocations Locations(const PointBlock& block, std::size_t count
             const auto same = [&](int axis) HWY_ATTR { return hn::Eq(e[c][axis], zero); };
             at_corner = hn::Or(at_corner, hn::And(hn::And(same(0), same(1)), same(2)));
         }
-        certain.outside |= BitsFrom(hn::And(positive, negative), i);
-        certain.interior |= BitsFrom(hn::Or(all_positive, all_negative), i);
+        certain.outside |= BitsOfMask(d, hn::And(positive, negative)) << i;
+        certain.interior |= BitsOfMask(d, hn::Or(all_positive, all_negative)) << i;
         // The volumes that the corner is part of are zero, exactly. So the certain one is the fourth.
-        certain.boundary |= BitsFrom(hn::And(at_corner, hn::Or(positive, negative)), i);
+        certain.boundary |= BitsOfMask(d, hn::And(at_corner, hn::Or(positive, negative))) << i;
     }
     return certain;
 }
@@ -115,7 +109,7 @@ HWY_INLINE std::uint64_t Weights(const PointBlock& block, std::size_t count, Wei
         const D error = hn::Add(hn::Max(hn::Max(of.error[0], of.error[1]), hn::Max(of.error[2], of.error[3])),
                                 hn::Set(d, underflow_error));
         const auto certain = hn::Lt(error, hn::Mul(hn::Set(d, barycentric_error), hn::Abs(total)));
-        if (!hn::AllTrue(d, certain)) uncertain |= BitsFrom(hn::Not(certain), i);
+        if (!hn::AllTrue(d, certain)) uncertain |= BitsOfMask(d, hn::Not(certain)) << i;
         D miss[3] = {zero, zero, zero};
         for (int c = 0; c < 4; ++c) {
             const D t = hn::Div(of.volume[c], total);
@@ -170,16 +164,7 @@ CertainLocations locate(const PointBlock& block, std::size_t count, VolumeBlock&
 }
 
 void weigh(const PointBlock& block, std::size_t count, WeightBlock& out) {
-    std::uint64_t uncertain =
-        VOX_SIMD_DISPATCH(Weigh)(block, count, out) & ~std::uint64_t{0} >> (point_block - count);
-    for (; uncertain; uncertain &= uncertain - 1) {
-        const auto i = static_cast<std::size_t>(std::countr_zero(uncertain));
-        const auto at = [&](const double(&of)[3][point_block]) {
-            return Vec3d{of[0][i], of[1][i], of[2][i]};
-        };
-        const Vec3d p = at(block.point);
-        const Vec3d corner[4] = {at(block.corner[0]), at(block.corner[1]), at(block.corner[2]),
-                                 at(block.corner[3])};
+    const auto exactly = [&out](std::size_t i, const Vec3d& p, const Vec3d(&corner)[4]) {
         const std::array<double, 4> weights = barycentric(p, corner[0], corner[1], corner[2], corner[3]);
         Vec3d miss{0, 0, 0};
         for (std::size_t c = 0; c < 4; ++c) {
@@ -189,7 +174,8 @@ void weigh(const PointBlock& block, std::size_t count, WeightBlock& out) {
         out.miss[0][i] = miss.x;
         out.miss[1][i] = miss.y;
         out.miss[2][i] = miss.z;
-    }
+    };
+    for_uncertain(VOX_SIMD_DISPATCH(Weigh)(block, count, out), block, count, exactly);
 }
 
 } // namespace vox

@@ -4,6 +4,7 @@
 #include "exact/predicates.hpp"
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -21,6 +22,20 @@ inline void set(double (&to)[3][point_block], std::size_t i, const Vec3d& at) no
     to[0][i] = at.x;
     to[1][i] = at.y;
     to[2][i] = at.z;
+}
+
+// Calls work(i, point, corners) for each bit i of the first `count`: what registers were not enough for.
+template <class Work>
+void for_uncertain(std::uint64_t uncertain, const PointBlock& block, std::size_t count, Work&& work) {
+    for (uncertain &= ~std::uint64_t{0} >> (point_block - count); uncertain; uncertain &= uncertain - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(uncertain));
+        const auto at = [i](const double(&of)[3][point_block]) {
+            return Vec3d{of[0][i], of[1][i], of[2][i]};
+        };
+        const Vec3d corners[4] = {at(block.corner[0]), at(block.corner[1]), at(block.corner[2]),
+                                  at(block.corner[3])};
+        work(i, at(block.point), corners);
+    }
 }
 
 // Repeats the first point, and that many of its corners, after the last of `count`.

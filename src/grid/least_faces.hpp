@@ -92,7 +92,7 @@ protected:
 
     // Reads worker.tile.
     virtual void load(Worker& worker) const = 0;
-    // Takes faces that are certainly too far away out of what vertices are near to; may leave all.
+    // May remove faces that are certainly too far from their vertex.
     virtual void sieve(Worker&, std::span<NearFaces>) const {}
     // Calls offer() for those of the faces that a vertex is near to which may be its least.
     virtual void look(Worker& worker, const NearFaces& near) const = 0;

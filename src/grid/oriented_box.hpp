@@ -15,8 +15,8 @@ struct OrientedBox {
     double half[3];        // sides
 };
 
-// Around all of the points, of which there is one at least: along a direction, which may be zero, and across
-// it to where the first of them has others furthest away.
+// The box around at least one point. Its first side is along a direction, which may be zero; its second
+// points from the first point to the point furthest from the line along it.
 OrientedBox oriented_box(std::span<const Vec3d> points, const Vec3d& along) noexcept;
 inline OrientedBox oriented_box(const Box& box) noexcept {
     const Vec3d lo{box.lo[0], box.lo[1], box.lo[2]}, hi{box.hi[0], box.hi[1], box.hi[2]};

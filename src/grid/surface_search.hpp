@@ -48,11 +48,11 @@ inline void add(MovingBox& a, const MovingBox& b) noexcept {
 // are rounded by; until a time, 1 being the end of the step.
 bool stay_apart(const MovingBox& a, const MovingBox& b, float reach, double until = 1) noexcept;
 
-// Half of how far apart two bodies with this box can be, as boxes of floats show it.
+// By how much boxes of floats of a body grow, so that two that are within the margin overlap.
 float growth(const Box& box, double margin) noexcept;
 
-// A tile of which more features than this overlap those of another, by their boxes, is crowded: it is worth
-// an oriented box. Slivers laid across each other overlap all, and touch nothing.
+// A tile is crowded if more pairs of its features and another tile's have boxes that overlap. It is then
+// worth an oriented box: of slivers laid across each other, all boxes overlap, and little touches.
 inline constexpr std::uint32_t crowd = 768;
 inline std::uint32_t count_pairs(std::span<const std::uint32_t> met) noexcept {
     std::uint32_t pairs = 0;
@@ -105,8 +105,8 @@ private:
     }
 };
 
-// The vertices of a tile of a body that stands still; a box around them, along their longest edge; and their
-// faces along axes of their own.
+// Of a tile of a body that stands still: its vertices; the box around them along its longest edge; and boxes
+// of its faces, each along axes of its own.
 inline void load_still(const SearchedBody& body, const SurfaceTile& tile, Vec3d* out) noexcept {
     for (std::uint32_t v = 0; v < tile.vertex_count; ++v) {
         const float* const p = body.at + 3 * std::size_t{body.features->vertices[tile.first_vertex + v]};

@@ -35,8 +35,8 @@ Vec3d middle_of(const Box& box) noexcept {
     return 0.5 * (Vec3d{box.lo[0], box.lo[1], box.lo[2]} + Vec3d{box.hi[0], box.hi[1], box.hi[2]});
 }
 
-// A tile of faces of b whose boxes so many vertices of a meet that it is worth a box along its length, and
-// then boxes of its faces. Of two bodies that stand still.
+// A tile of faces of b, where a and b stand still. If it is crowded, it gets a box along its length, and then
+// boxes along its faces.
 class CrowdedTile {
 public:
     CrowdedTile(const SearchedBody& a, const SearchedBody& b) noexcept
@@ -50,7 +50,7 @@ public:
     bool is_apart(const Box& other) const noexcept {
         return has_box_ && apart_along_axes(around_, oriented_box(other), double{reach_});
     }
-    // Takes faces that are apart out of those that vertices meet.
+    // Removes from `met` the faces that are certainly apart from their vertex.
     void thin_out(std::span<const Box> vertices, std::uint32_t* met) noexcept {
         const auto is_crowd = [&] { return count_pairs({met, vertices.size()}) > crowd / 4; };
         if (!is_crowd()) return;

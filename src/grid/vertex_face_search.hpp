@@ -55,7 +55,8 @@ private:
     virtual void begin(const VertexFacePair& pair, std::uint32_t worker) = 0;
     virtual void visit(const SurfaceTile& tile, std::span<NearFaces> near, std::uint32_t worker) = 0;
     virtual void end(std::uint32_t worker) = 0;
-    // In a search for meetings, after when one of a vertex, by its place, is of no interest any more.
+    // For a search for meetings: the time after which a meeting of this vertex, given by its place, would not
+    // be reported.
     virtual double latest(std::uint32_t place, std::uint32_t worker) noexcept = 0;
 
     struct Lists {

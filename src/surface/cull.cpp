@@ -203,8 +203,8 @@ struct CullAxes {
     }
 };
 
-// Lanes that follow each other, without looking any up. The axis is across the relative motion, where the
-// middles come closest.
+// Loads lanes in a row, without gathering. The axis is across the relative motion, where the middles come
+// closest.
 std::uint32_t CullAcross(const CullTile& tile, const CullPartner& vertex, std::uint32_t lanes) {
     const CullFloats d;
     const std::size_t width = hn::Lanes(d);

@@ -42,7 +42,8 @@ struct CullPairs {
 // returns their number.
 std::size_t cull_some(const CullPairs& pairs);
 
-// Of lanes of faces, as bits, those that a first axis does not prove to stay apart from a vertex, fast.
+// A quick first test. Of the given lanes, as bits, returns the faces that one axis does not prove to stay
+// apart from a vertex.
 std::uint32_t cull_across(const CullTile& tile, const CullPartner& vertex, std::uint32_t lanes);
 
 // Around the whole motion; or along with the tile, which takes away the motion that others share with it.
