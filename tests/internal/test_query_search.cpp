@@ -5,7 +5,7 @@
 #include "base/vectors.hpp"
 #include "internal/meshes.hpp"
 #include "internal/query_definition.hpp"
-#include "query/box_tree.hpp"
+#include "base/box_tree.hpp"
 #include "support/locators.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "query/box_tree.hpp"
+#include "base/box_tree.hpp"
 
 #include "base/median_splits.hpp"
 #include "base/room.hpp"
