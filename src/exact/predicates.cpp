@@ -225,6 +225,18 @@ bool products_may_underflow(const std::array<Vec3d, 4>& points) {
 
 } // namespace
 
+int side_of_sphere(const Vec3d& p, const Vec3d& q, double radius) {
+    // Seven roundings of numbers that are not negative, and the underflow of four squares.
+    constexpr double bound = 8 * 0x1p-53, lost = 0x1p-1000;
+    const Vec3d way = p - q;
+    const double squared = dot(way, way), limit = radius * radius, error = bound * (squared + limit) + lost;
+    if (squared - limit > error) return 1;
+    if (limit - squared > error) return -1;
+    const auto at = in_units(std::array{p, q, Vec3d{radius, 0, 0}});
+    const Integer x = at[0].x - at[1].x, y = at[0].y - at[1].y, z = at[0].z - at[1].z;
+    return (x * x + y * y + z * z - at[2].x * at[2].x).sign();
+}
+
 int exact_orientation(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
 #if defined(VOX_FIXED_POINT)
     FixedPoints<4> fixed;

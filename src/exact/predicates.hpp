@@ -22,6 +22,9 @@
 
 namespace vox {
 
+// The sign (-1, 0, +1) of |p - q| - radius, decided exactly. The radius is not negative.
+int side_of_sphere(const Vec3d& p, const Vec3d& q, double radius);
+
 // The sign of orientation() by exact arithmetic.
 int exact_orientation(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d);
 

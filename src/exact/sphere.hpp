@@ -1,0 +1,12 @@
+// The distance of a point from a sphere, to the last place.
+#pragma once
+
+#include "base/scene.hpp"
+
+namespace vox {
+
+// |p| - radius, off by at most one unit in its last place, however close p is to the sphere. Coordinates and
+// radius are below 2^400.
+double distance_to_sphere(const Vec3d& p, double radius) noexcept;
+
+} // namespace vox
