@@ -4,7 +4,7 @@
 #include "base/array.hpp"
 #include "base/vectors.hpp"
 #include "exact/predicates.hpp"
-#include "query/entry_bound.hpp"
+#include "base/entry_bound.hpp"
 #include "query/facets.hpp"
 
 #include <algorithm>
