@@ -206,7 +206,7 @@ VOX_API void vox_grid_destroy(VOX_OPTIONAL vox_grid* grid);
 
 /* ---- meshes ----------------------------------------------------------------------------------- */
 
-/* A body of a grid: a mesh. An id is never used again in the same grid. Ids ascend with slots, so in
+/* A body of a grid: a mesh or a rigid shape. An id is never used again in the same grid. Ids ascend with slots, so in
  * a new grid they ascend in the order of insertion. */
 typedef uint32_t vox_body;
 #define VOX_NULL_BODY 0u /* names no body */
@@ -246,8 +246,8 @@ typedef enum vox_mesh_flags {
     VOX_MESH_BORROW_TETS = 2     /* borrow the tetrahedra instead of copying them, 16 bytes each */
 } vox_mesh_flags;
 
-/* A mesh: vertices, and tetrahedra between them. A mesh without tetrahedra is a set of points: they collide with
- * the tetrahedra of other meshes, the edges and faces between them with nothing. */
+/* A mesh: vertices, and tetrahedra between them. A mesh without tetrahedra is a set of points, which collide with
+ * tetrahedra and shapes; edges and faces between them collide with nothing. */
 typedef struct vox_mesh_desc {
     uint32_t struct_size;
     uint32_t flags; /* vox_mesh_flags, combined with | */
@@ -436,7 +436,8 @@ typedef enum vox_depth_state {
  *                                                                                 from the middle of that part
  *     PROXIMITY   the vertex            the face with the closest point           the distance
  *     IMPACT      the vertex            the face that it met first                minus the distance behind its plane
- */
+ *
+ * A rigid shape has no vertices and is always body_b. The plane of an IMPACT with it moves as the shape does. */
 typedef struct vox_constraint {
     vox_body body_a;
     vox_body body_b;
@@ -446,7 +447,8 @@ typedef struct vox_constraint {
     uint32_t count;                          /* how many vertices in all */
     uint32_t vertices[VOX_STENCIL_CAPACITY]; /* those beyond `count` are 0, and so are their weights */
     uint32_t element_b;                      /* tetrahedron of body_b: the lowest that contains the vertex; with a
-                                                face, the tetrahedron behind it */
+                                                face, the tetrahedron behind it. Triangle of a shape; VOX_NONE if it
+                                                has none */
     double weights[VOX_STENCIL_CAPACITY];
     double normal[3]; /* a unit vector out of body_b, the way for body_a */
     double gap;
@@ -461,9 +463,10 @@ typedef struct vox_constraint {
     uint64_t reserved; /* 0 */
 } vox_constraint;
 
-/* The gap when the two bodies have these positions: packed doubles x y z, transformed. */
+/* The gap when the two bodies have these positions: packed doubles x y z, transformed. positions_b is not used for a
+ * shape. */
 static inline double vox_constraint_gap(const vox_constraint* c, const double* positions_a,
-                                        const double* positions_b) {
+                                        VOX_OPTIONAL const double* positions_b) {
     double gap = c->offset;
     uint32_t i;
     for (i = 0; i < c->count; ++i) {
@@ -523,8 +526,9 @@ VOX_API vox_result vox_grid_get_constraints(const vox_grid* grid, vox_constraint
 
 /* Places a body. In the following steps a position x, y, z stands for
  *     x' = ((m[0] * x + m[1] * y) + m[2] * z) + m[3], y' likewise with m[4..7], z' with m[8..11],
- * computed in double in this order. Contacts are exact for x', y', z'. It is any affine map,
- * and copied; null: none. Errors: INVALID_ARGUMENT (a number that is not finite), BUDGET, OUT_OF_MEMORY. */
+ * computed in double in this order. Contacts are exact for x', y', z'. The matrix is copied; null: none. For a mesh it is
+ * any affine map; for a shape it rotates, moves, and scales all axes alike, and may be off by rounding to floats.
+ * Errors: INVALID_ARGUMENT (a number that is not finite, a map that is not of this kind), BUDGET, OUT_OF_MEMORY. */
 VOX_API vox_result vox_body_set_transform(vox_grid* grid, vox_body body, VOX_OPTIONAL const double matrix[12]);
 
 /* Disables a body (0), or enables it again (1). A disabled body takes no part in steps; its positions are not read.
@@ -560,7 +564,7 @@ VOX_EXPERIMENTAL vox_result vox_mesh_bind_previous_positions(vox_grid* grid, vox
 /* A body as it is now. */
 typedef struct vox_body_info {
     uint32_t struct_size;
-    uint32_t reserved;  /* 0 */
+    uint32_t shape;     /* vox_shape_kind; VOX_SHAPE_NONE for a mesh */
     uint64_t user_data;
     uint32_t enabled;   /* 1 or 0 */
     uint32_t flags;     /* vox_mesh_flags: COPY_POSITIONS if the grid owns the positions, BORROW_TETS while the caller
@@ -584,6 +588,75 @@ VOX_API uint32_t vox_body_is_valid(VOX_OPTIONAL const vox_grid* grid, vox_body b
 /* Gets the first `capacity` bodies of the grid in ascending order, disabled ones included; `bodies` may be null if it
  * is 0. *out_count is the number of all. Errors: INVALID_ARGUMENT. */
 VOX_API vox_result vox_grid_get_bodies(const vox_grid* grid, vox_body* bodies, uint64_t capacity, uint64_t* out_count);
+
+/* ---- rigid shapes ----------------------------------------------------------------------------- */
+
+/* Shapes are given in a frame of their own. vox_body_set_transform places them, and moves them from step to step. */
+typedef enum vox_shape_kind {
+    VOX_SHAPE_NONE = 0,
+    VOX_SHAPE_HALF_SPACE = 1,  /* z <= 0: a floor */
+    VOX_SHAPE_SPHERE = 2,      /* around the origin: radius */
+    VOX_SHAPE_CAPSULE = 3,     /* along the z axis, around the origin: radius, half_length */
+    VOX_SHAPE_CYLINDER = 4,    /* likewise, with flat ends */
+    VOX_SHAPE_BOX = 5,         /* around the origin: half_size */
+    VOX_SHAPE_HEIGHTFIELD = 6, /* terrain, solid below: heights, columns, rows, spacing */
+    VOX_SHAPE_SOLID = 7,       /* the inside of a closed surface: positions, triangles */
+    VOX_SHAPE_SHEET = 8,       /* what is within `radius` of triangles, such as a blade or a wall, or of segments,
+                                  such as a needle, which are triangles that name a vertex twice */
+    VOX_SHAPE_FIELD = 9        /* where a function of the caller is not positive: field, half_size */
+} vox_shape_kind;
+
+/* Computes the distances of `count` points from a shape, in its frame: at most the true distance for a point outside,
+ * as rounding errors allow, and not positive for one inside. Gradients, three numbers each, point out of the shape;
+ * their length does not matter. Steps call it on several threads at once, with at most 8 points. It must not call the
+ * grid. */
+typedef void vox_distance_field(const double* points, uint64_t count, double* distances, double* gradients, void* user);
+
+/* A rigid shape. It is copied as a whole. Lengths may be 0. */
+typedef struct vox_shape_desc {
+    uint32_t struct_size;
+    vox_shape_kind kind;
+    double radius;
+    double half_length;  /* of a capsule, between the centres of its round ends */
+    double half_size[3]; /* half the sides of a box; of a box around the origin that holds the shape of a field */
+    vox_positions positions;
+    VOX_OPTIONAL const uint32_t* triangles; /* 3 * triangle_count vertex indices; of a SOLID counter-clockwise as seen
+                                               from outside */
+    uint64_t triangle_count;
+    VOX_OPTIONAL const double* heights; /* columns * rows numbers: z at x = column * spacing[0], y = row * spacing[1]
+                                           is heights[row * columns + column]; between them, two triangles with the
+                                           diagonal from the lower left to the upper right */
+    uint32_t columns;
+    uint32_t rows;
+    double spacing[2];
+    VOX_OPTIONAL vox_distance_field* field;
+    VOX_OPTIONAL void* field_user; /* passed to `field` */
+    uint64_t user_data;
+    vox_filter filter; /* self-collision, rings and rest distance have no meaning */
+} vox_shape_desc;
+
+static inline vox_shape_desc vox_default_shape_desc(void) {
+    vox_shape_desc desc = VOX_ZERO;
+    desc.struct_size = (uint32_t)sizeof desc;
+    return desc;
+}
+
+/* Adds a shape, which takes part from the next step on. The vertices of meshes collide with it; shapes do not collide
+ * with each other. A shape has pairs and constraints, but no contacts, and is always body_b of a constraint.
+ *
+ * A vertex is looked at in the shape's frame, where its place is computed in double. Whether that place is in the shape
+ * is decided exactly for all kinds but FIELD and a SHEET with a radius. Surfaces belong to shapes. The gap is the exact
+ * distance rounded once for HALF_SPACE, SPHERE and BOX, unless the shape is scaled; within a few units in the last
+ * place for the others, where the vertex is not much closer than the size of its coordinates.
+ * Errors: INVALID_ARGUMENT, INVALID_MESH (e.g. an open SOLID), NON_FINITE, LIMIT, BUDGET, OUT_OF_MEMORY. */
+VOX_EXPERIMENTAL vox_result vox_shape_insert(vox_grid* grid, const vox_shape_desc* desc, vox_body* out_body);
+
+/* Says where a shape was before. In the following steps it moves from there to its transform, and steps also find
+ * IMPACT constraints with it. Each vertex moves through the shape's frame in a straight line, at constant speed. The
+ * matrix is as in vox_body_set_transform, and copied; null ends this. Snapshots do not keep it.
+ * Errors: INVALID_ARGUMENT (e.g. a mesh, which has vox_mesh_bind_previous_positions), OUT_OF_MEMORY, BUDGET. */
+VOX_EXPERIMENTAL vox_result vox_shape_set_previous_transform(vox_grid* grid, vox_body body,
+                                                             VOX_OPTIONAL const double matrix[12]);
 
 /* ---- measurements: and settings of a grid ----------------------------------------------------- */
 

@@ -10,6 +10,7 @@
 #include "mesh/check.hpp"
 #include "mesh/filter.hpp"
 #include "mesh/ids.hpp"
+#include "shape/shape.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -126,6 +127,18 @@ vox_result vox_mesh_insert(vox_grid* grid, const vox_mesh_desc* desc, vox_body* 
     });
 }
 
+vox_result vox_shape_insert(vox_grid* grid, const vox_shape_desc* desc, vox_body* out_body) {
+    return border(grid, "grid", [&] {
+        require(out_body, "out_body");
+        const vox_shape_desc settings = read_struct(desc, "desc");
+        *out_body = grid->insert_shape(settings, checked_filter(settings.filter));
+    });
+}
+
+vox_result vox_shape_set_previous_transform(vox_grid* grid, vox_body body, const double matrix[12]) {
+    return border(grid, "grid", [&] { grid->set_previous_transform(body, matrix); });
+}
+
 vox_result vox_body_remove(vox_grid* grid, vox_body body) {
     return border(grid, "grid", [&] { grid->remove(body); });
 }
@@ -135,7 +148,7 @@ uint32_t vox_body_is_valid(const vox_grid* grid, vox_body body) {
 }
 
 vox_result vox_body_get_user_data(const vox_grid* grid, vox_body body, uint64_t* out_user_data) {
-    return border(grid, "grid", out_user_data, "out_user_data", [&] { return grid->mesh(body).user_data(); });
+    return border(grid, "grid", out_user_data, "out_user_data", [&] { return grid->body(body).user_data(); });
 }
 
 vox_result vox_grid_get_bodies(const vox_grid* grid, vox_body* bodies, uint64_t capacity,
@@ -152,7 +165,12 @@ vox_result vox_grid_get_bodies(const vox_grid* grid, vox_body* bodies, uint64_t 
 }
 
 vox_result vox_body_get_info(const vox_grid* grid, vox_body body, vox_body_info* out_info) {
-    return border(grid, "grid", [&] { write_struct(out_info, grid->mesh(body).info(), "out_info"); });
+    return border(grid, "grid", [&] {
+        const Mesh& from = grid->body(body);
+        vox_body_info info = from.info();
+        if (from.shape()) info.shape = static_cast<std::uint32_t>(from.shape()->kind());
+        write_struct(out_info, info, "out_info");
+    });
 }
 
 vox_result vox_mesh_get_tets(const vox_grid* grid, vox_body body, uint32_t* corners, uint8_t* enabled,
@@ -183,13 +201,7 @@ vox_result vox_mesh_map_positions(vox_grid* grid, vox_body body, void** out_posi
 }
 
 vox_result vox_body_set_transform(vox_grid* grid, vox_body body, const double matrix[12]) {
-    return border(grid, "grid", [&] {
-        Mesh& target = grid->mesh(body);
-        for (int i = 0; matrix && i < 12; ++i)
-            if (!std::isfinite(matrix[i]))
-                refuse(format("matrix[%d] is %g, expected a finite number", i, matrix[i]));
-        target.set_transform(matrix);
-    });
+    return border(grid, "grid", [&] { grid->set_transform(body, matrix); });
 }
 
 vox_result vox_body_mark_moved(vox_grid* grid, vox_body body) {

@@ -47,7 +47,9 @@ struct Counters {
     std::uint64_t carried_proximities = 0; // part of `proximities` carried over from the step before
     std::uint64_t constraints = 0;         // that were found last; 0 where none were looked for
     std::uint64_t impacts = 0;             // 0 without previous positions (vox_mesh_bind_previous_positions)
-    std::uint64_t face_candidates = 0;     // vertices and faces of which a distance or a time was computed
+    std::uint64_t shape_contacts = 0;      // 0 without shapes, as is the next one
+    std::uint64_t carried_shape_contacts = 0; // part of `shape_contacts` carried over
+    std::uint64_t face_candidates = 0;        // vertices and faces of which a distance or a time was computed
 };
 
 // Nanoseconds. stream_ns to decide_ns are the stages of the fast engine, and bin_ns, broad_ns and narrow_ns
@@ -69,6 +71,7 @@ struct Profile {
     std::uint64_t decide_ns = 0;      // decide the rest exactly; of the worker that took longest over it
     std::uint64_t edges_ns = 0;       // edges through faces, with either engine
     std::uint64_t margin_ns = 0;      // proximities and impacts, with either engine
+    std::uint64_t shapes_ns = 0;      // contacts with shapes, with either engine
 };
 
 // A name and its field, in the order of vox_counter_view.
@@ -114,6 +117,8 @@ inline constexpr NamedCounter named_counters[] = {
     {"constraints", &Counters::constraints},
     {"passages", &Counters::impacts},
     {"face_candidates", &Counters::face_candidates},
+    {"shape_contacts", &Counters::shape_contacts},
+    {"carried_shape_contacts", &Counters::carried_shape_contacts},
 };
 inline constexpr NamedTime named_times[] = {
     {"step_ns", &Profile::step_ns},
@@ -132,6 +137,7 @@ inline constexpr NamedTime named_times[] = {
     {"decide_ns", &Profile::decide_ns},
     {"edges_ns", &Profile::edges_ns},
     {"margin_ns", &Profile::margin_ns},
+    {"shapes_ns", &Profile::shapes_ns},
 };
 
 } // namespace vox

@@ -95,6 +95,7 @@ private:
 };
 
 struct SelfFilter;
+class RigidShape;
 
 // Decides which other meshes a mesh collides with (vox_filter).
 struct PairFilter {
@@ -136,6 +137,7 @@ struct Body {
     // whose index is mesh_id.
     std::uint32_t slot = in_array;
     std::uint64_t user_data = 0;
+    const RigidShape* shape = nullptr; // null for a mesh; a shape has no vertices
 };
 
 // The index of the body with this mesh, or of the next one.

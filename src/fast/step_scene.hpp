@@ -37,6 +37,7 @@ struct StepScene {
     std::span<const SurfaceVersion> versions;    // of each body
     Workers* workers;
     std::span<const vox_contact> contacts{}; // in canonical order, once they are made
+    std::span<const Positions> previous{};   // of each body, null where it has none; empty if none has any
 
     // Set by the engine, or by StreamedScene.
     std::span<const fast::StepBody> of{}; // each body: its packed positions, and whether it moved

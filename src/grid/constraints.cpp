@@ -118,8 +118,8 @@ void Constraints::reserve(std::size_t body_count, std::size_t contact_count) {
 Constraints::Ends Constraints::list(const ConstraintSources& from) {
     Ends ends{};
     place_.assign(kinds * from.pairs.size(), 0);
-    const std::size_t most =
-        from.hits.size() + from.edges.size() + from.proximities.size() + from.impacts.size();
+    const std::size_t most = from.hits.size() + from.edges.size() + from.proximities.size() +
+                             from.impacts.size() + from.shapes.size();
     reserve_sparingly(listed_, most);
     if (listed_.size() < most) listed_.resize(most);
     reserve_growing(now_.pairs, from.pairs.size()); // which are the same for all constraints of a step
@@ -134,6 +134,10 @@ Constraints::Ends Constraints::list(const ConstraintSources& from) {
         ++place_[kinds * pair + kind];
         *end++ = {static_cast<std::uint32_t>(pair), static_cast<std::uint32_t>(source)};
     };
+    const auto add_shapes = [&](vox_constraint_kind kind) {
+        for (std::size_t i = 0; i < from.shapes.size(); ++i)
+            if (from.shapes[i].kind == kind) add(from.shapes[i].body_a, from.shapes[i].body_b, kind, i);
+    };
     if (from.penetrations) {
         const std::span<const Penetration> all = from.penetrations->all();
         for (std::size_t i = 0; i < all.size(); ++i)
@@ -144,6 +148,7 @@ Constraints::Ends Constraints::list(const ConstraintSources& from) {
                 add(from.bodies[from.hits[i].body_a].mesh_id, from.bodies[from.hits[i].body_b].mesh_id,
                     VOX_CONSTRAINT_INSIDE, i);
     }
+    add_shapes(VOX_CONSTRAINT_INSIDE);
     ends[VOX_CONSTRAINT_INSIDE] = count();
     for (std::size_t i = 0; i < from.edges.size(); ++i)
         add(from.edges[i].body_a, from.edges[i].body_b, VOX_CONSTRAINT_EDGE, i);
@@ -155,9 +160,11 @@ Constraints::Ends Constraints::list(const ConstraintSources& from) {
         if (impact < from.impacts.size() && place_of(from.impacts[impact]) == place) continue;
         add(from.proximities[i].body_a, from.proximities[i].body_b, VOX_CONSTRAINT_PROXIMITY, i);
     }
+    add_shapes(VOX_CONSTRAINT_PROXIMITY);
     ends[VOX_CONSTRAINT_PROXIMITY] = count();
     for (std::size_t i = 0; i < from.impacts.size(); ++i)
         add(from.impacts[i].body_a, from.impacts[i].body_b, VOX_CONSTRAINT_IMPACT, i);
+    add_shapes(VOX_CONSTRAINT_IMPACT);
     ends[VOX_CONSTRAINT_IMPACT] = count();
     return ends;
 }
@@ -253,7 +260,8 @@ private:
 
 namespace {
 
-// Writes stencil, normal, gap, state, element and time of a constraint that is not INSIDE. Returns body_a.
+// Writes stencil, normal, gap, state, element and time of a constraint that is not INSIDE a mesh. Returns
+// body_a.
 struct Writer {
     const ConstraintSources& from;
 
@@ -310,22 +318,36 @@ struct Writer {
         c.time = impact.time;
         return impact.body_a;
     }
+
+    vox_body write_shape(std::uint32_t source, vox_constraint& c) const {
+        const ShapeContact& contact = from.shapes[source];
+        c.count_a = c.count = 1;
+        c.vertices[0] = contact.vertex;
+        c.element_b = contact.element;
+        c.gap = contact.gap;
+        c.state = contact.state;
+        std::copy_n(contact.normal, 3, c.normal);
+        c.time = contact.time;
+        return contact.body_a;
+    }
 };
 
 } // namespace
 
-// The constraints of one pair and one kind other than INSIDE.
+// The constraints of one pair and one kind, other than INSIDE a mesh.
 void Constraints::write_others(const ConstraintSources& from, const Run& run, Previous& previous) noexcept {
     const Writer writer{from};
     const auto& [lower, higher] = now_.pairs[run.pair];
     const Body* const bodies[2] = {&from.bodies[body_index(from.bodies, lower)],
                                    &from.bodies[body_index(from.bodies, higher)]};
+    const bool has_shape = bodies[0]->shape || bodies[1]->shape;
     for (std::size_t i = run.begin; i < run.end; ++i) {
         const std::uint32_t source = sources_[i];
         vox_constraint& c = now_.all[i];
         c = {};
         c.weights[0] = 1;
-        const vox_body id_a = run.kind == VOX_CONSTRAINT_EDGE        ? writer.write_edge(source, c)
+        const vox_body id_a = has_shape                              ? writer.write_shape(source, c)
+                              : run.kind == VOX_CONSTRAINT_EDGE      ? writer.write_edge(source, c)
                               : run.kind == VOX_CONSTRAINT_PROXIMITY ? writer.write_proximity(source, c)
                                                                      : writer.write_impact(source, c);
         const bool swapped = id_a != lower;
@@ -491,6 +513,15 @@ void Constraints::write_inside(const ConstraintSources& from, const Run& run, Pr
 
 // ---- all of them -----------------------------------------------------------------------------------
 
+namespace {
+
+bool has_shape(const ConstraintSources& from, const IdPair& pair) noexcept {
+    return !from.shapes.empty() && (from.bodies[body_index(from.bodies, pair.body_a)].shape ||
+                                    from.bodies[body_index(from.bodies, pair.body_b)].shape);
+}
+
+} // namespace
+
 void Constraints::write(const ConstraintSources& from, std::size_t begin, std::size_t end) noexcept {
     Previous previous(last_), previous_inside(last_);
     Run inside{}; // vertices inside that wait, as long as they follow each other
@@ -505,7 +536,7 @@ void Constraints::write(const ConstraintSources& from, std::size_t begin, std::s
                       std::min<std::size_t>(end, first[bucket + 1])};
         begin = run.end;
         previous.begin(now_.pairs[run.pair]);
-        if (run.kind != VOX_CONSTRAINT_INSIDE) {
+        if (run.kind != VOX_CONSTRAINT_INSIDE || has_shape(from, now_.pairs[run.pair])) {
             write_others(from, run, previous);
         } else if (!carry_inside(from, run, previous)) {
             if (inside.end != run.begin) {

@@ -5,6 +5,7 @@
 #include "grid/edge_contacts.hpp"
 #include "grid/impacts.hpp"
 #include "grid/proximities.hpp"
+#include "grid/shape_contacts.hpp"
 #include "mesh/topology.hpp"
 
 #include <vox/vox.h>
@@ -38,6 +39,7 @@ struct ConstraintSources {
     std::span<const Proximity> proximities;
     std::span<const SurfaceMeeting> meetings;
     std::span<const Impact> impacts;
+    std::span<const ShapeContact> shapes; // sorted by body_a, body_b, vertex
 };
 
 class Constraints {

@@ -9,6 +9,7 @@
 #include "grid/contacts.hpp"
 #include "mesh/check.hpp"
 #include "mesh/ids.hpp"
+#include "shape/shape.hpp"
 
 #include <cmath>
 #include <cstdarg>
@@ -48,6 +49,13 @@ ReferenceSettings read_reference(const vox_reference_desc* given) {
             .hash_table_size = desc.hash_table_size,
             .world_min = {desc.world_min[0], desc.world_min[1], desc.world_min[2]},
             .world_max = {desc.world_max[0], desc.world_max[1], desc.world_max[2]}};
+}
+
+void check_matrix(const double* matrix, bool of_shape) {
+    for (int i = 0; matrix && i < 12; ++i)
+        if (!std::isfinite(matrix[i]))
+            refuse(format("matrix[%d] is %g, expected a finite number", i, matrix[i]));
+    if (matrix && of_shape) ShapePlace::check(matrix, "matrix");
 }
 
 CostWeights weights_of(const vox_reference_desc* given) {
@@ -118,6 +126,22 @@ vox_body vox_grid::insert(const vox_mesh_desc& desc, const Body& view, const vox
     return id;
 }
 
+vox_body vox_grid::insert_shape(const vox_shape_desc& desc, const vox_filter& filter) {
+    vox_mesh_desc empty = vox_default_mesh_desc();
+    empty.user_data = desc.user_data;
+    const Body view = check_mesh(empty, "", NullPositions::allowed);
+    meshes_.check_room(view);
+    Mesh mesh(empty, view, filter, &memory_);
+    mesh.set_shape(make_shape(desc, &memory_));
+    fast::MeshState state(&memory_);
+    prepare(mesh, state);
+    surfaces_.find_shapes(true);
+    const vox_body id = meshes_.insert(std::move(mesh), std::move(state));
+    surfaces_.shapes()->change();
+    scene_changed();
+    return id;
+}
+
 // What is allowed, but collides with less than one may think: each once, as a program may mean it.
 void vox_grid::warn_of_traps(const Mesh& mesh, vox_body id) {
     if (!log_.write || warned_of_edges_ || mesh.tet_count() > 0 || mesh.vertex_count() == 0) return;
@@ -161,10 +185,33 @@ void vox_grid::clear() {
 void vox_grid::mark_moved(vox_body id) {
     meshes_hold_ = false;
     meshes_[id].state.invalidate_positions();
+    if (meshes_[id].mesh.shape()) surfaces_.shapes()->change();
+}
+
+const Mesh& vox_grid::mesh(vox_body id) const {
+    const Mesh& found = meshes_[id].mesh;
+    if (found.shape()) refuse(format("body %u is a shape, expected a mesh", id));
+    return found;
+}
+
+void vox_grid::set_transform(vox_body id, const double* matrix) {
+    Mesh& placed = body(id);
+    check_matrix(matrix, placed.shape() != nullptr);
+    if (placed.shape()) surfaces_.shapes()->change();
+    placed.set_transform(matrix);
+}
+
+void vox_grid::set_previous_transform(vox_body id, const double* matrix) {
+    if (!body(id).shape())
+        refuse(format("body %u is a mesh, expected a shape: vox_mesh_bind_previous_positions says where its "
+                      "vertices were",
+                      id));
+    check_matrix(matrix, true);
+    surfaces_.shapes()->bind_previous(id, matrix);
 }
 
 void vox_grid::set_filter(vox_body id, const vox_filter& filter) {
-    Mesh& filtered = mesh(id);
+    Mesh& filtered = body(id);
     const bool had_topology = filtered.has_topology(), needed_it = needs_topology(filtered.filter());
     if (needs_topology(filter)) filtered.make_topology();
     try {
@@ -182,12 +229,12 @@ void vox_grid::set_filter(vox_body id, const vox_filter& filter) {
 }
 
 void vox_grid::set_enabled(vox_body id, bool enabled) {
-    mesh(id).set_enabled(enabled);
+    body(id).set_enabled(enabled);
     mark_moved(id);
 }
 
 void vox_grid::set_pair_enabled(vox_body a, vox_body b, bool enabled) {
-    Mesh &body_a = mesh(a), &body_b = mesh(b);
+    Mesh &body_a = body(a), &body_b = body(b);
     if (a == b)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("body_a and body_b are both %u: self-collision is a matter of its filter", a));
@@ -331,6 +378,7 @@ void vox_grid::set_margin(double margin) {
 
 // What no stage over surfaces needs any more.
 void vox_grid::drop_unused() noexcept {
+    if (meshes_.shape_count() == 0) surfaces_.find_shapes(false);
     if (!surfaces_.drop_unused()) return;
     step_.versions = Array<SurfaceVersion>(&memory_);
     drop_topologies();
@@ -368,7 +416,7 @@ void vox_grid::find_constraints(vox_constraint_desc desc) {
     if (desc.body_a == VOX_NULL_BODY && desc.body_b != VOX_NULL_BODY)
         refuse(format("desc.body_b is %u, but there is no body_a", desc.body_b));
     for (const vox_body body : {desc.body_a, desc.body_b})
-        if (body != VOX_NULL_BODY) (void)mesh(body); // throws for an id that names no body
+        if (body != VOX_NULL_BODY) (void)this->body(body); // throws for an id that names no body
     if (!stepped_)
         throw Error(VOX_ERROR_INVALID_STATE, "there are no results of a step: call vox_grid_step first");
     make_constraints(desc, false, counters_, profile_);
@@ -425,7 +473,7 @@ void vox_grid::describe(CellSizeScene& scene) const {
     reserve_all(scene.bodies, scene.tiles, scene.meshes, scene.at_rest, scene.cleared);
     meshes_.for_each([&](vox_body id, const MeshSlot& slot) {
         const Mesh& mesh = slot.mesh;
-        if (!mesh.is_enabled()) return;
+        if (!mesh.is_enabled() || mesh.shape()) return;
         const Body body = mesh.body(id);
         if (!mesh.has_positions())
             throw MeshError(VOX_ERROR_INVALID_STATE, body, " has no positions: bind some before");

@@ -56,10 +56,14 @@ public:
 
     // `view` is what check_mesh() makes of `desc`, whose filter is not looked at; `filter` is checked.
     vox_body insert(const vox_mesh_desc& desc, const vox::Body& view, const vox_filter& filter);
+    vox_body insert_shape(const vox_shape_desc& desc, const vox_filter& filter);
     void remove(vox_body mesh);
     void mark_moved(vox_body mesh);
     void set_filter(vox_body mesh, const vox_filter& filter);
     void set_enabled(vox_body mesh, bool enabled);
+    // Null: none.
+    void set_transform(vox_body id, const double* matrix);
+    void set_previous_transform(vox_body shape, const double* matrix);
     void set_pair_enabled(vox_body a, vox_body b, bool enabled);
     void set_topology(vox_body mesh, const vox_mesh_desc& desc, const vox::Body& view);
     // `positions` are checked; without data: it has none any more.
@@ -69,8 +73,12 @@ public:
     // To be called after any other edit of a mesh, with the number of tets or vertices that it named.
     void was_edited(vox_body mesh, std::uint64_t count);
     bool is_valid(vox_body mesh) const noexcept { return meshes_.find(mesh) != nullptr; }
-    vox::Mesh& mesh(vox_body mesh) { return meshes_[mesh].mesh; }
-    const vox::Mesh& mesh(vox_body mesh) const { return meshes_[mesh].mesh; }
+    // A mesh or a shape.
+    vox::Mesh& body(vox_body id) { return meshes_[id].mesh; }
+    const vox::Mesh& body(vox_body id) const { return meshes_[id].mesh; }
+    // Throw INVALID_ARGUMENT for a shape.
+    vox::Mesh& mesh(vox_body id) { return const_cast<vox::Mesh&>(std::as_const(*this).mesh(id)); }
+    const vox::Mesh& mesh(vox_body id) const;
     const vox::MeshTable& meshes() const noexcept { return meshes_; }
     const vox::FastEngine& fast_engine() const noexcept { return fast_engine_; }
 
@@ -96,7 +104,7 @@ private:
     bool finds_constraints() const noexcept { return (flags_ & VOX_GRID_CONSTRAINTS) != 0; }
     bool skips_bad_meshes() const noexcept { return (flags_ & VOX_GRID_SKIP_BAD_BODIES) != 0; }
     bool needs_topology(const vox_filter& filter) const noexcept {
-        return (finds_constraints() && !vox::is_sensor(filter)) || surfaces_.any();
+        return (finds_constraints() && !vox::is_sensor(filter)) || surfaces_.reads_surfaces();
     }
     void prepare(vox::Mesh& mesh, vox::fast::MeshState& state);
     void make_topologies();

@@ -14,30 +14,9 @@
 
 namespace vox {
 
-void Impacts::bind(vox_body mesh, const Positions& positions) {
-    const auto at = std::ranges::lower_bound(bound_, mesh, {}, &Bound::mesh);
-    const bool is_bound = at != bound_.end() && at->mesh == mesh;
-    if (!positions.data)
-        forget(mesh);
-    else if (is_bound)
-        at->positions = positions;
-    else
-        bound_.insert(at, {mesh, positions});
-}
-
-void Impacts::forget(vox_body mesh) noexcept {
-    erase_if(bound_, [mesh](const Bound& bound) { return bound.mesh == mesh; });
-}
-
 void Impacts::find(const StepScene& scene, KeptFeatures& kept) {
-    previous_.assign(scene.bodies.size(), {});
-    for (std::size_t b = 0, i = 0; b < scene.bodies.size(); ++b) {
-        while (i < bound_.size() && bound_[i].mesh < scene.bodies[b].mesh_id) ++i;
-        if (i < bound_.size() && bound_[i].mesh == scene.bodies[b].mesh_id)
-            previous_[b] = bound_[i].positions;
-    }
     begin_step(scene, 1);
-    find_meeting(scene, previous_, kept);
+    find_meeting(scene, scene.previous, kept);
     end_step("impacts");
     list_impacts();
 }
@@ -82,7 +61,8 @@ void Impacts::add_to(ConstraintSources& sources, depth::SurfaceTrees&, Workers&)
 }
 
 Vec3d Impacts::before(std::uint32_t body, std::uint32_t vertex) const noexcept {
-    return previous_[body].data ? previous_[body].exact(vertex) : position(body, vertex);
+    const Positions& previous = scene().previous[body];
+    return previous.data ? previous.exact(vertex) : position(body, vertex);
 }
 
 void Impacts::leave_out(std::uint32_t a, std::uint32_t, Array<std::uint32_t>& vertices) const {
@@ -92,7 +72,8 @@ void Impacts::leave_out(std::uint32_t a, std::uint32_t, Array<std::uint32_t>& ve
 
 void Impacts::load(Worker& worker) const {
     const SurfaceFeatures& surface = *worker.pair.surface;
-    const Positions &now = scene().bodies[worker.pair.b].positions, &previous = previous_[worker.pair.b];
+    const Positions &now = scene().bodies[worker.pair.b].positions,
+                    &previous = scene().previous[worker.pair.b];
     load_positions(previous.data ? previous : now, surface, *worker.tile, worker.read.from.data());
     load_positions(now, surface, *worker.tile, worker.read.to.data());
     worker.read.has_lanes = false;

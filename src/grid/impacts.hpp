@@ -38,12 +38,7 @@ struct MovingTile {
 
 class Impacts final : public LeastFaces<SurfaceMeeting, MovingTile> {
 public:
-    explicit Impacts(std::pmr::memory_resource* memory)
-        : LeastFaces(memory), bound_(memory), previous_(memory), impacts_(memory) {}
-
-    // The previous positions of a mesh; without data: it has none any more.
-    void bind(vox_body mesh, const Positions& positions);
-    bool any_bound() const noexcept { return !bound_.empty(); }
+    explicit Impacts(std::pmr::memory_resource* memory) : LeastFaces(memory), impacts_(memory) {}
 
     void find(const StepScene& scene, KeptFeatures& kept);
     void count(Counters& counters) const noexcept {
@@ -55,18 +50,10 @@ public:
         LeastFaces::clear();
         impacts_.clear();
     }
-    void forget(vox_body mesh) noexcept;
-    void forget_all() noexcept {
-        clear();
-        bound_.clear();
-    }
+    void forget(vox_body) noexcept {}
+    void forget_all() noexcept { clear(); }
 
 private:
-    struct Bound {
-        vox_body mesh;
-        Positions positions;
-    };
-
     void leave_out(std::uint32_t a, std::uint32_t b, Array<std::uint32_t>& vertices) const override;
     void load(Worker& worker) const override;
     void sieve(Worker& worker, std::span<NearFaces> near) const override;
@@ -76,9 +63,7 @@ private:
     Vec3d before(std::uint32_t body, std::uint32_t vertex) const noexcept;
     void list_impacts();
 
-    Array<Bound> bound_;        // by mesh
-    Array<Positions> previous_; // of each body of a step
-    Array<Impact> impacts_;     // in the order of meetings
+    Array<Impact> impacts_; // in the order of meetings
 };
 
 } // namespace vox

@@ -37,6 +37,7 @@ vox_body MeshTable::insert(Mesh&& mesh, fast::MeshState&& state) {
     MeshSlot& taken = slots_[slot];
     vertex_count_ += mesh.vertex_count();
     tet_count_ += mesh.tet_count();
+    shape_count_ += mesh.shape() != nullptr;
     taken.mesh = std::move(mesh);
     taken.state = std::move(state);
     taken.live = true;
@@ -72,6 +73,7 @@ void MeshTable::vacate(std::uint32_t index) noexcept {
         slots_[slot_of(other)].mesh.remove_exception(make_id(index, generation));
     vertex_count_ -= slot.mesh.vertex_count();
     tet_count_ -= slot.mesh.tet_count();
+    shape_count_ -= slot.mesh.shape() != nullptr;
     slot = MeshSlot(memory(), generation);
     // A slot whose generations are used up is retired, so that no old id becomes valid again.
     if (generation < most_generations) free_slots_.push_back(index);

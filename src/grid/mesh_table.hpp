@@ -47,6 +47,7 @@ public:
     // Of all meshes together.
     std::uint64_t vertex_count() const noexcept { return vertex_count_; }
     std::uint64_t tet_count() const noexcept { return tet_count_; }
+    std::uint32_t shape_count() const noexcept { return shape_count_; }
 
     // Throw Error(LIMIT) where there is no room for one more such mesh, or for so many more vertices and
     // tetrahedra; with `old`, in its place.
@@ -93,6 +94,7 @@ private:
     Array<std::uint32_t> free_slots_; // capacity for every slot, so that removing cannot fail
     std::uint64_t vertex_count_ = 0;
     std::uint64_t tet_count_ = 0;
+    std::uint32_t shape_count_ = 0;
 };
 
 } // namespace vox

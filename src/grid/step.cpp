@@ -30,7 +30,7 @@ void vox_grid::step() {
             else
                 pairs_.update(
                     step_.contacts, [this](const auto& add) { surfaces_.for_pairs(add); },
-                    meshes_.slot_count(), [this](vox_body id) { return mesh(id).user_data(); });
+                    meshes_.slot_count(), [this](vox_body id) { return body(id).user_data(); });
         }
         if (finds_constraints()) make_constraints({}, true, counters, profile);
         count(counters);

@@ -16,6 +16,7 @@
 #include "grid/edge_contacts.hpp"
 #include "grid/impacts.hpp"
 #include "grid/proximities.hpp"
+#include "grid/shape_contacts.hpp"
 
 #include <vox/vox.h>
 
@@ -26,28 +27,47 @@ namespace vox {
 
 class SurfaceStages {
 public:
-    explicit SurfaceStages(std::pmr::memory_resource* memory) noexcept : memory_(memory) {}
+    explicit SurfaceStages(std::pmr::memory_resource* memory) noexcept
+        : memory_(memory), bound_(memory), previous_(memory) {}
 
     // Whether a step looks at surfaces.
     bool any() const noexcept { return kept_.has_value(); }
-    double margin() const noexcept {
-        const auto& proximities = std::get<std::optional<Proximities>>(stages_);
-        return proximities ? proximities->margin() : 0;
+    // Those of meshes.
+    bool reads_surfaces() const noexcept {
+        return std::get<0>(stages_) || std::get<1>(stages_) || margin_ > 0;
     }
+    double margin() const noexcept { return margin_; }
 
     // What they look for; drop_unused() gives up what is without use then.
     void find_edges(bool find) { (void)use<EdgeContacts>(find); }
     void set_margin(double margin) {
         if (Proximities* const proximities = use<Proximities>(margin > 0)) proximities->set_margin(margin);
+        margin_ = margin;
+        if (shapes()) shapes()->set_margin(margin);
     }
+    void find_shapes(bool find) {
+        if (find == shapes().has_value()) return;
+        (void)use<ShapeContacts>(find);
+        if (find) shapes()->set_margin(margin_);
+    }
+    std::optional<ShapeContacts>& shapes() noexcept {
+        return std::get<std::optional<ShapeContacts>>(stages_);
+    }
+    // The positions that a mesh had before; without data: it has none any more.
     void bind_previous(vox_body mesh, const Positions& positions) {
-        if (positions.data || std::get<std::optional<Impacts>>(stages_))
-            use<Impacts>(true)->bind(mesh, positions);
+        const auto at = std::ranges::lower_bound(bound_, mesh, {}, &Bound::mesh);
+        const bool is_bound = at != bound_.end() && at->mesh == mesh;
+        if (!positions.data) return forget(mesh);
+        if (shapes()) shapes()->change();
+        (void)use<Impacts>(true);
+        if (is_bound)
+            at->positions = positions;
+        else
+            bound_.insert(at, {mesh, positions});
     }
     // Returns whether that leaves no stage, where there was one.
     bool drop_unused() noexcept {
-        auto& impacts = std::get<std::optional<Impacts>>(stages_);
-        if (impacts && !impacts->any_bound()) impacts.reset();
+        if (bound_.empty()) std::get<std::optional<Impacts>>(stages_).reset();
         const bool is_used =
             std::apply([](const auto&... stage) { return (stage.has_value() || ...); }, stages_);
         if (is_used || !any()) return false;
@@ -60,6 +80,7 @@ public:
     template <class Fill>
     bool find(StepScene& scene, const Fill& fill, Counters& counters, Profile& profile) {
         bool is_filled = false, is_unchanged = true;
+        list_previous(scene);
         for_each([&](auto& stage) {
             const Timed timed(profile.*stage.time);
             if (!is_filled) fill(scene, kept_->streamed);
@@ -83,6 +104,7 @@ public:
         for_each([](auto& stage) { stage.clear(); });
     }
     void forget(vox_body mesh) noexcept {
+        erase_if(bound_, [mesh](const Bound& bound) { return bound.mesh == mesh; });
         for_each([&](auto& stage) { stage.forget(mesh); });
     }
     // Tetrahedra of the mesh are others, or it is gone.
@@ -92,6 +114,7 @@ public:
     }
     void forget_all() noexcept {
         if (kept_) kept_->features.forget_all();
+        bound_.clear();
         for_each([](auto& stage) { stage.forget_all(); });
     }
 
@@ -103,6 +126,22 @@ private:
         KeptFeatures features;  // of surfaces that a stage came upon
     };
 
+    struct Bound {
+        vox_body mesh;
+        Positions positions;
+    };
+
+    void list_previous(StepScene& scene) {
+        previous_.clear();
+        if (bound_.empty()) return;
+        previous_.assign(scene.bodies.size(), {});
+        auto at = bound_.begin();
+        for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+            while (at != bound_.end() && at->mesh < scene.bodies[b].mesh_id) ++at;
+            if (at != bound_.end() && at->mesh == scene.bodies[b].mesh_id) previous_[b] = at->positions;
+        }
+        scene.previous = previous_;
+    }
     template <class Visit>
     void for_each(const Visit& visit) {
         std::apply([&](auto&... stage) { ((stage ? visit(*stage) : void()), ...); }, stages_);
@@ -122,8 +161,13 @@ private:
 
     std::pmr::memory_resource* memory_;
     std::optional<Kept> kept_; // while there is a stage
+    double margin_ = 0;
+    Array<Bound> bound_;        // previous positions, by mesh
+    Array<Positions> previous_; // of each body of a step
     // Those that are there, in their order in a step: bodies that touch before those that are near.
-    std::tuple<std::optional<EdgeContacts>, std::optional<Impacts>, std::optional<Proximities>> stages_;
+    std::tuple<std::optional<EdgeContacts>, std::optional<Impacts>, std::optional<ShapeContacts>,
+               std::optional<Proximities>>
+        stages_;
 };
 
 } // namespace vox

@@ -140,7 +140,8 @@ Body Mesh::body(vox_body id) const noexcept {
             .off_count = edits_.off.count(),
             .removed_vertices = edits_.removed_vertices.words(),
             .slot = id == VOX_NULL_BODY ? Body::no_slot : slot_of(id),
-            .user_data = user_data_};
+            .user_data = user_data_,
+            .shape = shape_.get()};
 }
 
 void Mesh::set_filter(const vox_filter& filter) {

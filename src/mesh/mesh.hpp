@@ -158,6 +158,10 @@ public:
     }
     bool is_off(std::uint32_t tet) const noexcept { return edits_.off[tet]; }
 
+    // What makes a body without vertices a shape; null for a mesh.
+    const std::shared_ptr<const RigidShape>& shape() const noexcept { return shape_; }
+    void set_shape(std::shared_ptr<const RigidShape> shape) noexcept { shape_ = std::move(shape); }
+
     // Sets a checked filter. Where that needs a rest pose and there is none, it is copied from the positions.
     // Throws Error(INVALID_STATE or NON_FINITE) or what the memory throws, and changes nothing then.
     void set_filter(const vox_filter& filter);
@@ -209,6 +213,7 @@ private:
     MeshEdits edits_;
     Array<double> owned_; // positions, packed in their format, unless they are borrowed
     Lazy<MeshSample> sample_;
+    std::shared_ptr<const RigidShape> shape_;
     SelfFilter self_filter_;
     Array<vox_body> exceptions_;
     vox_filter filter_;

@@ -2,9 +2,9 @@
 // exactly: by the sides of the facet on which its ends are, and the sides of the segment on which the facet's
 // edges are.
 #include "base/array.hpp"
+#include "base/entry_bound.hpp"
 #include "base/vectors.hpp"
 #include "exact/predicates.hpp"
-#include "base/entry_bound.hpp"
 #include "query/facets.hpp"
 
 #include <algorithm>

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "base/array.hpp"
+#include "base/entry_bound.hpp"
 #include "exact/accurate.hpp"
 #include "exact/predicates.hpp"
-#include "base/entry_bound.hpp"
 #include "query/facets.hpp"
 
 #include <cstddef>

@@ -11,6 +11,7 @@ from repository import ROOT, files, text_of
 LEVELS = [
     ["base"],
     ["exact"],
+    ["shape"],
     ["mesh"],
     ["reference", "fast", "depth"],
     ["query"],

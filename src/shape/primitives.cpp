@@ -1,0 +1,147 @@
+#include "shape/primitives.hpp"
+
+#include "base/error.hpp"
+#include "base/vectors.hpp"
+#include "exact/facet_normal.hpp"
+#include "exact/predicates.hpp"
+#include "exact/sphere.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace vox {
+
+namespace {
+
+// Sets whether a point is inside, with which its distance agrees. Returns whether it is in reach.
+bool decide(bool is_inside, double distance, double reach, ShapePoint& out) noexcept {
+    out.is_inside = is_inside;
+    out.distance = is_inside ? std::min(distance, 0.0) : std::max(distance, 0.0);
+    out.element = VOX_NONE;
+    return out.distance <= reach;
+}
+
+// The direction of v, or `otherwise` for zero.
+Vec3d direction(const Vec3d& v, const Vec3d& otherwise) noexcept {
+    const Vec3d unit = normalised(scaled(v));
+    return unit.x == 0 && unit.y == 0 && unit.z == 0 ? otherwise : unit;
+}
+
+double sign_of(double x) noexcept { return x < 0 ? -1 : 1; }
+
+} // namespace
+
+// ---- half-space -----------------------------------------------------------------------------------
+
+HalfSpace::HalfSpace() noexcept
+    : RigidShape(VOX_SHAPE_HALF_SPACE, {{-unlimited, -unlimited, -unlimited}, {unlimited, unlimited, 0}}) {}
+
+bool HalfSpace::look(const Vec3d& p, double reach, ShapePoint& out) const {
+    out.normal = {0, 0, 1};
+    return decide(p.z <= 0, p.z, reach, out);
+}
+
+// ---- sphere and capsule ---------------------------------------------------------------------------
+
+Capsule::Capsule(vox_shape_kind kind, double radius, double half_length) noexcept
+    : RigidShape(kind, {{-radius, -radius, -half_length - radius}, {radius, radius, half_length + radius}}),
+      radius_(radius), half_length_(half_length) {}
+
+bool Capsule::look(const Vec3d& p, double reach, ShapePoint& out) const {
+    const Vec3d centre{0, 0, std::clamp(p.z, -half_length_, half_length_)}, way = p - centre;
+    const double far = length(way) * (1 - 0x1p-40) - radius_;
+    if (far > reach) return false;
+    out.normal = direction(way, half_length_ > 0 ? Vec3d{1, 0, 0} : Vec3d{0, 0, 1});
+    return decide(side_of_sphere(p, centre, radius_) <= 0, distance_to_sphere(way, radius_), reach, out);
+}
+
+// ---- cylinder and box -----------------------------------------------------------------------------
+
+Cylinder::Cylinder(double radius, double half_length) noexcept
+    : RigidShape(VOX_SHAPE_CYLINDER, {{-radius, -radius, -half_length}, {radius, radius, half_length}}),
+      radius_(radius), half_length_(half_length) {}
+
+bool Cylinder::look(const Vec3d& p, double reach, ShapePoint& out) const {
+    const Vec3d flat{p.x, p.y, 0}, end{0, 0, sign_of(p.z)}, side = direction(flat, {1, 0, 0});
+    const double across = distance_to_sphere(flat, radius_), along = std::abs(p.z) - half_length_;
+    const bool is_inside = side_of_sphere(flat, {0, 0, 0}, radius_) <= 0 && along <= 0;
+    if (is_inside) {
+        out.normal = across >= along ? side : end;
+        return decide(true, std::max(across, along), reach, out);
+    }
+    const Vec3d way{std::max(across, 0.0), std::max(along, 0.0), 0};
+    const Vec3d normal = direction(way, {1, 0, 0});
+    out.normal = normal.x * side + normal.y * end;
+    return decide(false, Stretch(way).length, reach, out);
+}
+
+BoxShape::BoxShape(const Vec3d& half_size) noexcept
+    : RigidShape(VOX_SHAPE_BOX, {-1.0 * half_size, half_size}), half_size_(half_size) {}
+
+bool BoxShape::look(const Vec3d& p, double reach, ShapePoint& out) const {
+    const double at[3] = {p.x, p.y, p.z}, half[3] = {half_size_.x, half_size_.y, half_size_.z};
+    double beyond[3], normal[3] = {};
+    int nearest = 0;
+    for (int i = 0; i < 3; ++i) {
+        beyond[i] = std::abs(at[i]) - half[i];
+        if (beyond[i] > beyond[nearest]) nearest = i;
+    }
+    if (beyond[nearest] > reach) return false;
+    if (beyond[nearest] <= 0) {
+        normal[nearest] = sign_of(at[nearest]);
+        out.normal = vector_of(normal);
+        return decide(true, beyond[nearest], reach, out);
+    }
+    for (int i = 0; i < 3; ++i) normal[i] = beyond[i] > 0 ? sign_of(at[i]) * beyond[i] : 0;
+    const Stretch way(vector_of(normal));
+    out.normal = way.direction;
+    return decide(false, way.length, reach, out);
+}
+
+// ---- field ----------------------------------------------------------------------------------------
+
+Field::Field(vox_distance_field* evaluate, void* user, const Vec3d& half_size) noexcept
+    : RigidShape(VOX_SHAPE_FIELD, {-1.0 * half_size, half_size}), evaluate_(evaluate), user_(user) {}
+
+std::uint32_t Field::look(std::span<const Vec3d> points, double reach, ShapePoint* out) const {
+    std::array<double, 3 * most_points> at{}, gradients{};
+    std::array<double, most_points> distances{};
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        at[3 * i] = points[i].x, at[3 * i + 1] = points[i].y, at[3 * i + 2] = points[i].z;
+    }
+    evaluate_(at.data(), points.size(), distances.data(), gradients.data(), user_);
+    std::uint32_t found = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Vec3d gradient{gradients[3 * i], gradients[3 * i + 1], gradients[3 * i + 2]};
+        if (std::isnan(distances[i]) || !std::isfinite(dot(gradient, {1, 1, 1})))
+            throw Error(VOX_ERROR_NON_FINITE,
+                        format("the field of a shape has distance %g and gradient (%g, %g, %g) at (%g, %g, "
+                               "%g) in its frame",
+                               distances[i], gradient.x, gradient.y, gradient.z, points[i].x, points[i].y,
+                               points[i].z));
+        out[i].normal = direction(gradient, {0, 0, 1});
+        if (decide(distances[i] <= 0, distances[i], reach, out[i])) found |= 1u << i;
+    }
+    return found;
+}
+
+// Nothing is known of a field but that the surface is no closer than the distance (J. C. Hart, Sphere
+// tracing, The Visual Computer 12, 1996).
+double Field::meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at) const {
+    constexpr int most_spheres = 256; // a way that grazes takes so many, and counts as meeting
+    const Vec3d way = to - from;
+    const double all = length(way),
+                 close = 0x1p-46 * std::max(largest_coordinate(from), largest_coordinate(to));
+    double time = 0;
+    for (int sphere = 0; sphere < most_spheres; ++sphere) {
+        const Vec3d p = from + time * way;
+        (void)look({&p, 1}, unlimited, &at);
+        if (!(at.distance > close)) return time;
+        if (!(time * all + at.distance <= all)) return no_shape_meeting;
+        time += at.distance / all;
+    }
+    return time;
+}
+
+} // namespace vox

@@ -1,0 +1,90 @@
+// Rigid shapes: floors, tools, terrain. Each is a class, and says of a point in the shape's frame how far away
+// it is and on which side.
+#pragma once
+
+#include "base/scene.hpp"
+
+#include <vox/vox.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <memory_resource>
+#include <span>
+
+namespace vox {
+
+// What a point sees of a shape.
+struct ShapePoint {
+    double distance;       // from the surface; negative inside, and 0 there if it is too small for a double
+    bool is_inside;        // or on the surface; decided exactly where vox_shape_desc says so
+    Vec3d normal;          // a unit vector out of the shape, at the closest point of the surface
+    std::uint32_t element; // the triangle that has the closest point; VOX_NONE without triangles
+};
+
+inline constexpr double no_shape_meeting = 2;
+inline constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+class RigidShape {
+public:
+    struct Bounds {
+        Vec3d min, max; // may be infinite
+    };
+
+    virtual ~RigidShape() = default;
+
+    vox_shape_kind kind() const noexcept { return kind_; }
+    const Bounds& bounds() const noexcept { return bounds_; }
+
+    // Returns false if p is further outside than `reach`, which is not negative; `out` is unspecified then.
+    virtual bool look(const Vec3d& p, double reach, ShapePoint& out) const = 0;
+    // The same for at most most_points points. Returns a bit for each.
+    static constexpr std::size_t most_points = 8;
+    virtual std::uint32_t look(std::span<const Vec3d> points, double reach, ShapePoint* out) const;
+    // True only if all points within `radius` of `centre` are outside, and further away than `reach`.
+    virtual bool is_beyond(const Vec3d& centre, double radius, double reach) const;
+    // When a point that moves in a straight line, and begins outside, first meets the shape: from 0 to 1 and
+    // never too late, with what it sees there; no_shape_meeting if it never does.
+    virtual double meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at) const;
+
+protected:
+    RigidShape(vox_shape_kind kind, const Bounds& bounds) noexcept : kind_(kind), bounds_(bounds) {}
+
+    vox_shape_kind kind_;
+    Bounds bounds_;
+};
+
+// Checks a desc that read_struct() has completed, and copies what it has. Throws INVALID_ARGUMENT,
+// INVALID_MESH, NON_FINITE, LIMIT and what the memory throws.
+std::shared_ptr<const RigidShape> make_shape(const vox_shape_desc& desc, std::pmr::memory_resource* memory);
+
+// Where a shape is: a rotation, one scale for all axes, and a translation.
+class ShapePlace {
+public:
+    ShapePlace() noexcept : ShapePlace(nullptr) {}
+    // As vox_body_set_transform; null: as it was given.
+    explicit ShapePlace(const double* matrix) noexcept;
+
+    // Throws INVALID_ARGUMENT for a matrix that is not of this kind.
+    static void check(const double* matrix, const char* name);
+
+    double scale() const noexcept { return scale_; }
+    Vec3d to_shape(const Vec3d& x) const noexcept {
+        const Vec3d d{x.x - origin_.x, x.y - origin_.y, x.z - origin_.z};
+        return {inverse_ * ((axis_[0].x * d.x + axis_[0].y * d.y) + axis_[0].z * d.z),
+                inverse_ * ((axis_[1].x * d.x + axis_[1].y * d.y) + axis_[1].z * d.z),
+                inverse_ * ((axis_[2].x * d.x + axis_[2].y * d.y) + axis_[2].z * d.z)};
+    }
+    // A direction; of unit length again.
+    Vec3d to_world(const Vec3d& direction) const noexcept;
+    // The box around bounds.
+    RigidShape::Bounds to_world(const RigidShape::Bounds& bounds) const noexcept;
+
+private:
+    Vec3d axis_[3];
+    Vec3d origin_;
+    double scale_, inverse_; // 1 / scale^2
+};
+
+} // namespace vox

@@ -1,0 +1,272 @@
+#include "shape/triangles.hpp"
+
+#include "base/entry_bound.hpp"
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "base/rounding.hpp"
+#include "base/vectors.hpp"
+#include "exact/closest_point.hpp"
+#include "exact/crossing.hpp"
+#include "exact/facet_normal.hpp"
+#include "exact/predicates.hpp"
+#include "shape/meeting.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace vox {
+
+namespace {
+
+RigidShape::Bounds bounds_of(std::span<const Vec3d> points, double radius) noexcept {
+    RigidShape::Bounds bounds{{unlimited, unlimited, unlimited}, {-unlimited, -unlimited, -unlimited}};
+    for (const Vec3d& p : points) bounds = {min(bounds.min, p), max(bounds.max, p)};
+    const Vec3d reach{radius, radius, radius};
+    return {bounds.min - reach, bounds.max + reach};
+}
+
+} // namespace
+
+TriangleShape::TriangleShape(vox_shape_kind kind, Array<Vec3d>&& points, Array<ShapeTriangle>&& triangles,
+                             double radius)
+    : RigidShape(kind, bounds_of(points, radius)), points_(std::move(points)),
+      triangles_(std::move(triangles)), tree_(triangles_.memory()), radius_(radius) {
+    Array<Box3f> boxes(triangles_.memory());
+    boxes.reserve(triangles_.size());
+    for (const auto& [a, b, c] : triangles_) {
+        Box3f& box = boxes.emplace_back(rounded_box(points_[a]));
+        extend(box, rounded_box(points_[b]));
+        extend(box, rounded_box(points_[c]));
+    }
+    Workers alone({}, 0);
+    tree_.build(boxes, alone);
+}
+
+// ---- what a point sees ----------------------------------------------------------------------------
+
+// One triangle, with `radius_` around it. Its distance is negative for a point that is enclosed.
+void TriangleShape::look_at(const Vec3d& p, std::uint32_t triangle, bool is_enclosed,
+                            ShapePoint& out) const noexcept {
+    const ShapeTriangle& t = triangles_[triangle];
+    const Vec3d &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
+    const SeenPoint seen = closest_seen_from(p, a, b, c);
+    const Stretch way(seen.way);
+    out.distance = is_enclosed ? -way.length : way.length - radius_;
+    out.normal = is_enclosed ? way.direction : -1.0 * way.direction;
+    out.element = triangle;
+    // So close that rounding errors would turn the way: across the triangle. On its edges that is as good as
+    // any other direction.
+    const double reach =
+        std::max({largest_coordinate(a - p), largest_coordinate(b - p), largest_coordinate(c - p)});
+    if (way.length > 0x1p-20 * reach) return;
+    std::uint64_t exact_tests = 0;
+    const Vec3d normal = triangle_normal(a, b, c);
+    const bool is_behind = !is_enclosed && orientation(a, b, c, p, exact_tests) < 0;
+    if (length(normal) > 0)
+        out.normal = is_behind ? -1.0 * normal : normal;
+    else if (!(way.length > 0))
+        out.normal = {0, 0, 1};
+}
+
+bool TriangleShape::look(const Vec3d& p, double reach, ShapePoint& out) const {
+    const bool is_enclosed = encloses(p);
+    const double far = is_enclosed ? unlimited : (reach + radius_) * (1 + 0x1p-40);
+    double most = far * far; // distance, squared
+    std::uint32_t nearest = VOX_NONE;
+    tree_.visit_nearest_first(
+        most, [&](const Box3f& box) { return squared_distance_bound(p, box); },
+        [&](std::uint32_t triangle) {
+            const ShapeTriangle& t = triangles_[triangle];
+            const double squared =
+                closest_seen_from(p, corner(t, 0), corner(t, 1), corner(t, 2)).at.squared_distance;
+            if (squared > most || (squared == most && nearest < triangle)) return;
+            most = squared;
+            nearest = triangle;
+        });
+    if (nearest == VOX_NONE) return false;
+    look_at(p, nearest, is_enclosed, out);
+    out.is_inside = is_enclosed || (radius_ > 0 ? out.distance <= 0 : is_on_surface(p));
+    if (out.is_inside) out.distance = std::min(out.distance, 0.0);
+    return out.distance <= reach;
+}
+
+// Without a triangle near, all of the points are inside if one is.
+bool TriangleShape::is_beyond(const Vec3d& centre, double radius, double reach) const {
+    const double far = (radius + reach + radius_) * (1 + 0x1p-40);
+    bool is_near = false;
+    tree_.visit_accepted(
+        [&](const Box3f& box) { return !is_near && squared_distance_bound(centre, box) <= far * far; },
+        [&](std::uint32_t) { is_near = true; });
+    return !is_near && !encloses(centre);
+}
+
+double TriangleShape::meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at) const {
+    const EntryBound enters(from, to);
+    const auto grow = static_cast<float>(radius_ * 1.0001);
+    double earliest = 1;
+    std::uint32_t first = VOX_NONE;
+    tree_.visit_nearest_first(
+        earliest,
+        [&](Box3f box) {
+            box.min = {box.min.x - grow, box.min.y - grow, box.min.z - grow};
+            box.max = {box.max.x + grow, box.max.y + grow, box.max.z + grow};
+            return enters(box);
+        },
+        [&](std::uint32_t triangle) {
+            ShapePoint seen;
+            const double time = convex_meeting(
+                from, to, [&](const Vec3d& p, ShapePoint& out) { look_at(p, triangle, false, out); }, seen);
+            if (time > earliest || (time == earliest && first < triangle)) return;
+            earliest = time;
+            first = triangle;
+            at = seen;
+        });
+    return first == VOX_NONE ? no_shape_meeting : earliest;
+}
+
+bool TriangleShape::is_on_surface(const Vec3d& p) const {
+    bool is_on = false;
+    std::uint64_t exact_tests = 0;
+    tree_.visit_accepted([&](const Box3f& box) { return !is_on && contains(box, p); },
+                         [&](std::uint32_t triangle) {
+                             const ShapeTriangle& t = triangles_[triangle];
+                             const Vec3d &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
+                             is_on = is_on || (orientation(a, b, c, p, exact_tests) == 0 &&
+                                               find_crossing(p, p, a, b, c, exact_tests).kind !=
+                                                   CrossingKind::none);
+                         });
+    return is_on;
+}
+
+// ---- solid ----------------------------------------------------------------------------------------
+
+namespace {
+
+// On which side of the line from u to v, seen from above, p is: 1 for left. A point on the line is moved by
+// far less than anything, along x, and along y by far less than that. 0 only for u above v.
+int side_from_above(const Vec3d& u, const Vec3d& v, const Vec3d& p, std::uint64_t& exact_tests) noexcept {
+    const int side = orientation({u.x, u.y, 0}, {v.x, v.y, 0}, {p.x, p.y, 0}, {u.x, u.y, 1}, exact_tests);
+    if (side != 0) return side;
+    if (u.y != v.y) return u.y > v.y ? 1 : -1;
+    return (v.x > u.x) - (v.x < u.x);
+}
+
+// Every edge belongs to as many triangles one way as the other way.
+void check_closed(std::span<const ShapeTriangle> triangles, std::pmr::memory_resource* memory) {
+    struct Edge {
+        std::uint32_t low, high;
+        bool is_up;
+        std::uint32_t triangle;
+    };
+    Array<Edge> edges(memory);
+    edges.reserve(3 * triangles.size());
+    for (std::uint32_t t = 0; t < triangles.size(); ++t)
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t u = triangles[t][i], v = triangles[t][(i + 1) % 3];
+            edges.push_back({std::min(u, v), std::max(u, v), u < v, t});
+        }
+    const auto ends = [](const Edge& edge) { return std::pair(edge.low, edge.high); };
+    std::ranges::sort(edges, {}, ends);
+    for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
+        int up = 0;
+        for (end = i; end < edges.size() && ends(edges[end]) == ends(edges[i]); ++end)
+            up += edges[end].is_up ? 1 : -1;
+        if (up == 0 || edges[i].low == edges[i].high) continue;
+        throw Error(VOX_ERROR_INVALID_MESH,
+                    end - i == 1
+                        ? format("edge (%u, %u) of triangle %u has no other triangle: a SOLID has to be "
+                                 "closed, a SHEET need not be",
+                                 edges[i].low, edges[i].high, edges[i].triangle)
+                        : format("edge (%u, %u) runs the same way in triangles %u and %u: the triangles of a "
+                                 "SOLID have to be counter-clockwise as seen from outside",
+                                 edges[i].low, edges[i].high, edges[i].triangle, edges[i + 1].triangle));
+    }
+}
+
+} // namespace
+
+ClosedSurface::ClosedSurface(Array<Vec3d>&& points, Array<ShapeTriangle>&& triangles)
+    : TriangleShape(VOX_SHAPE_SOLID, std::move(points), std::move(triangles), 0) {
+    check_closed(triangles_, triangles_.memory());
+}
+
+// How often the surface goes around p: its triangles above p, each with the sign of the side that it shows
+// (P. Heckbert, ed., Graphics Gems IV, 1994, has the test in the plane). Points on edges are moved alike for
+// all triangles (H. Edelsbrunner, E. P. Mücke, Simulation of simplicity, ACM Trans. Graphics 9, 1990).
+bool ClosedSurface::encloses(const Vec3d& p) const {
+    if (!(p.x >= bounds_.min.x && p.y >= bounds_.min.y && p.z >= bounds_.min.z && p.x <= bounds_.max.x &&
+          p.y <= bounds_.max.y && p.z <= bounds_.max.z))
+        return false;
+    int turns = 0;
+    bool is_on = false;
+    std::uint64_t exact_tests = 0;
+    tree_.visit_accepted(
+        [&](const Box3f& box) {
+            return double{box.min.x} <= p.x && p.x <= double{box.max.x} && double{box.min.y} <= p.y &&
+                   p.y <= double{box.max.y} && p.z <= double{box.max.z};
+        },
+        [&](std::uint32_t triangle) {
+            const ShapeTriangle& t = triangles_[triangle];
+            const Vec3d &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
+            const int of_ab = side_from_above(a, b, p, exact_tests);
+            if (of_ab == 0 || side_from_above(b, c, p, exact_tests) != of_ab ||
+                side_from_above(c, a, p, exact_tests) != of_ab)
+                return;
+            const int side = orientation(a, b, c, p, exact_tests);
+            if (side == 0) is_on = true;
+            if (side == -of_ab) turns += of_ab;
+        });
+    return turns != 0 || is_on || is_on_surface(p);
+}
+
+// ---- heightfield ----------------------------------------------------------------------------------
+
+namespace {
+
+Array<ShapeTriangle> lattice(std::uint32_t columns, std::uint32_t rows, std::pmr::memory_resource* memory) {
+    Array<ShapeTriangle> triangles(memory);
+    triangles.reserve(2 * (std::size_t{columns} - 1) * (rows - 1));
+    for (std::uint32_t row = 0; row + 1 < rows; ++row)
+        for (std::uint32_t column = 0; column + 1 < columns; ++column) {
+            const std::uint32_t at = row * columns + column, above = at + columns;
+            triangles.push_back({at, at + 1, above + 1});
+            triangles.push_back({at, above + 1, above});
+        }
+    return triangles;
+}
+
+} // namespace
+
+Heightfield::Heightfield(Array<Vec3d>&& points, std::uint32_t columns, std::uint32_t rows)
+    : TriangleShape(VOX_SHAPE_HEIGHTFIELD, std::move(points), lattice(columns, rows, points.memory()), 0),
+      columns_(columns), rows_(rows) {
+    bounds_.min.z = -unlimited;
+}
+
+bool Heightfield::encloses(const Vec3d& p) const {
+    if (!(p.x >= bounds_.min.x && p.y >= bounds_.min.y && p.x <= bounds_.max.x && p.y <= bounds_.max.y &&
+          p.z <= bounds_.max.z))
+        return false;
+    // The last line of the lattice that is not beyond p; lines are rounded.
+    const auto cell = [](double x, std::uint32_t lines, const auto& line) {
+        std::uint32_t low = 0, high = lines - 1;
+        while (high - low > 1) {
+            const std::uint32_t middle = low + (high - low) / 2;
+            (line(middle) <= x ? low : high) = middle;
+        }
+        return low;
+    };
+    const std::uint32_t column = cell(p.x, columns_, [&](std::uint32_t i) { return points_[i].x; }),
+                        row = cell(p.y, rows_, [&](std::uint32_t i) { return points_[i * std::size_t{columns_}].y; });
+    const std::size_t first = 2 * (row * (std::size_t{columns_} - 1) + column);
+    const ShapeTriangle& lower = triangles_[first];
+    const Vec3d &a = corner(lower, 0), &c = corner(lower, 2);
+    std::uint64_t exact_tests = 0;
+    const bool is_left =
+        orientation({a.x, a.y, 0}, {c.x, c.y, 0}, {p.x, p.y, 0}, {a.x, a.y, 1}, exact_tests) > 0;
+    const ShapeTriangle& t = triangles_[first + is_left];
+    return orientation(corner(t, 0), corner(t, 1), corner(t, 2), p, exact_tests) <= 0;
+}
+
+} // namespace vox

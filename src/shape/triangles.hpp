@@ -1,0 +1,74 @@
+// Shapes of triangles, with a tree over their boxes.
+#pragma once
+
+#include "base/array.hpp"
+#include "base/box_tree.hpp"
+#include "shape/shape.hpp"
+
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+
+namespace vox {
+
+using ShapeTriangle = std::array<std::uint32_t, 3>;
+
+class TriangleShape : public RigidShape {
+public:
+    bool look(const Vec3d& p, double reach, ShapePoint& out) const final;
+    bool is_beyond(const Vec3d& centre, double radius, double reach) const final;
+    double meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at) const final;
+
+protected:
+    // The triangles are part of the shape, and so is what is within `radius` of them.
+    TriangleShape(vox_shape_kind kind, Array<Vec3d>&& points, Array<ShapeTriangle>&& triangles,
+                  double radius);
+
+    // Whether p is in what the triangles enclose.
+    virtual bool encloses(const Vec3d& p) const = 0;
+    bool is_on_surface(const Vec3d& p) const;
+    const Vec3d& corner(const ShapeTriangle& triangle, std::size_t i) const noexcept {
+        return points_[triangle[i]];
+    }
+
+    Array<Vec3d> points_;
+    Array<ShapeTriangle> triangles_;
+    BoxTree tree_;
+    double radius_;
+
+private:
+    void look_at(const Vec3d& p, std::uint32_t triangle, bool is_enclosed, ShapePoint& out) const noexcept;
+};
+
+// Thin: encloses nothing.
+class Sheet final : public TriangleShape {
+public:
+    Sheet(Array<Vec3d>&& points, Array<ShapeTriangle>&& triangles, double radius)
+        : TriangleShape(VOX_SHAPE_SHEET, std::move(points), std::move(triangles), radius) {}
+
+private:
+    bool encloses(const Vec3d&) const override { return false; }
+};
+
+// What a closed surface goes around, decided exactly: the surface is part of it.
+class ClosedSurface final : public TriangleShape {
+public:
+    // Throws INVALID_MESH unless the surface is closed.
+    ClosedSurface(Array<Vec3d>&& points, Array<ShapeTriangle>&& triangles);
+
+private:
+    bool encloses(const Vec3d& p) const override;
+};
+
+// Terrain: each cell of a lattice is two triangles, and what is below them is inside, decided exactly.
+class Heightfield final : public TriangleShape {
+public:
+    Heightfield(Array<Vec3d>&& points, std::uint32_t columns, std::uint32_t rows);
+
+private:
+    bool encloses(const Vec3d& p) const override;
+
+    std::uint32_t columns_, rows_; // of points
+};
+
+} // namespace vox
