@@ -76,7 +76,8 @@ class Describer:
 
     def check_marks(self):
         """Each line of marks.toml is about something that exists."""
-        owners = {d.name.removeprefix("vox_"): d for d in self.all}
+        calls = (self.call_of(d, m) for d in self.all if d.kind == "struct" for m in d.fields)
+        owners = {d.name.removeprefix("vox_"): d for d in (*self.all, *filter(None, calls))}
         for name, marks in self.marks.items():
             members = [m[1] for m in owners[name].fields + owners[name].parameters] if name in owners else []
             for key, value in marks.items():
@@ -141,13 +142,17 @@ class Describer:
 
     def member_type(self, owner, member):
         """The type of a parameter or field."""
-        type_text, name = member
-        pointer = re.fullmatch(r"(.*)\(\*\)\s*\((.*)\)", type_text)
-        if not pointer:
-            return self.type_of(type_text)
-        call = header.Declaration("callback", f"{owner.name}_{name}", "", owner.line, owner.section,
-                                  result=pointer[1].strip(), parameters=header.parameters_of(pointer[2]))
-        return {"type": type_text, "kind": "function", "callback": call.name, **self.signature(call)}
+        call = self.call_of(owner, member)
+        if not call:
+            return self.type_of(member[0])
+        return {"type": member[0], "kind": "function", "callback": call.name, **self.signature(call)}
+
+    @staticmethod
+    def call_of(owner, member):
+        """What a field that points to a function points to."""
+        pointer = re.fullmatch(r"(.*)\(\*\)\s*\((.*)\)", member[0])
+        return pointer and header.Declaration("callback", f"{owner.name}_{member[1]}", "", owner.line, owner.section,
+                                              result=pointer[1].strip(), parameters=header.parameters_of(pointer[2]))
 
     def signature(self, call):
         result = self.type_of(call.result)

@@ -125,6 +125,33 @@ export declare const DepthMethod: Readonly<{
 }>;
 export type DepthMethod = (typeof DepthMethod)[keyof typeof DepthMethod];
 
+/** Shapes are given in a frame of their own. vox_body_set_transform places them, and moves them from step to step. */
+export declare const ShapeKind: Readonly<{
+  NONE: 0;
+  /** z <= 0: a floor */
+  HALF_SPACE: 1;
+  /** around the origin: radius */
+  SPHERE: 2;
+  /** along the z axis, around the origin: radius, half_length */
+  CAPSULE: 3;
+  /** likewise, with flat ends */
+  CYLINDER: 4;
+  /** around the origin: half_size */
+  BOX: 5;
+  /** terrain, solid below: heights, columns, rows, spacing */
+  HEIGHTFIELD: 6;
+  /** the inside of a closed surface: positions, triangles */
+  SOLID: 7;
+  /**
+   * what is within `radius` of triangles, such as a blade or a wall, or of segments, such as a needle, which are
+   * triangles that name a vertex twice
+   */
+  SHEET: 8;
+  /** where a function of the caller is not positive: field, half_size */
+  FIELD: 9;
+}>;
+export type ShapeKind = (typeof ShapeKind)[keyof typeof ShapeKind];
+
 /** How serious a line of the log is. */
 export declare const LogLevel: Readonly<{
   INFO: 0;

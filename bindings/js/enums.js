@@ -87,6 +87,19 @@ export const DepthMethod = Object.freeze({
   NONE: 2,
 });
 
+export const ShapeKind = Object.freeze({
+  NONE: 0,
+  HALF_SPACE: 1,
+  SPHERE: 2,
+  CAPSULE: 3,
+  CYLINDER: 4,
+  BOX: 5,
+  HEIGHTFIELD: 6,
+  SOLID: 7,
+  SHEET: 8,
+  FIELD: 9,
+});
+
 export const LogLevel = Object.freeze({
   INFO: 0,
   WARNING: 1,

@@ -1,7 +1,7 @@
 // Written by bindings/generate.py from bindings/api.json. Do not edit.
 
 import type { CellsKept, CellsQueried, CellsStored, ConstraintKind, CostModel, DepthMethod, DepthState, Format,
-KnownGrid, LocationState, PairState, PrimitiveType, Result, Side } from "./enums.js";
+KnownGrid, LocationState, PairState, PrimitiveType, Result, ShapeKind, Side } from "./enums.js";
 
 /** Settings of a grid; all 0 by default. What the pointers name is copied. */
 export interface GridDesc {
@@ -115,7 +115,8 @@ export interface PairColumns {
  * of the point of body_a relative to the point of body_b, for damping and friction. kind vertices of body_a vertices of
  * body_b gap in the step INSIDE the vertex the tetrahedron that contains it minus the depth EDGE the edge the face
  * minus the depth of its part inside, from the middle of that part PROXIMITY the vertex the face with the closest point
- * the distance IMPACT the vertex the face that it met first minus the distance behind its plane
+ * the distance IMPACT the vertex the face that it met first minus the distance behind its plane A rigid shape has no
+ * vertices and is always body_b. The plane of an IMPACT with it moves as the shape does.
  */
 export interface Constraint {
   bodyA: number;
@@ -128,7 +129,10 @@ export interface Constraint {
   count: number;
   /** those beyond `count` are 0, and so are their weights */
   vertices: number[];
-  /** tetrahedron of body_b: the lowest that contains the vertex; with a face, the tetrahedron behind it */
+  /**
+   * tetrahedron of body_b: the lowest that contains the vertex; with a face, the tetrahedron behind it. Triangle of a
+   * shape; VOX_NONE if it has none
+   */
   elementB: number;
   weights: number[];
   /** a unit vector out of body_b, the way for body_a */
@@ -189,6 +193,8 @@ export interface ConstraintDesc {
 
 /** A body as it is now. */
 export interface BodyInfo {
+  /** vox_shape_kind; VOX_SHAPE_NONE for a mesh */
+  shape: number;
   userData: bigint;
   /** 1 or 0 */
   enabled: number;

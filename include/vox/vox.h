@@ -606,12 +606,6 @@ typedef enum vox_shape_kind {
     VOX_SHAPE_FIELD = 9        /* where a function of the caller is not positive: field, half_size */
 } vox_shape_kind;
 
-/* Computes the distances of `count` points from a shape, in its frame: at most the true distance for a point outside,
- * as rounding errors allow, and not positive for one inside. Gradients, three numbers each, point out of the shape;
- * their length does not matter. Steps call it on several threads at once, with at most 8 points. It must not call the
- * grid. */
-typedef void vox_distance_field(const double* points, uint64_t count, double* distances, double* gradients, void* user);
-
 /* A rigid shape. It is copied as a whole. Lengths may be 0. */
 typedef struct vox_shape_desc {
     uint32_t struct_size;
@@ -629,8 +623,12 @@ typedef struct vox_shape_desc {
     uint32_t columns;
     uint32_t rows;
     double spacing[2];
-    VOX_OPTIONAL vox_distance_field* field;
-    VOX_OPTIONAL void* field_user; /* passed to `field` */
+    /* Computes the distances of `count` points, x y z each, from the shape in its frame: for a point outside at most
+     * the true distance, up to rounding; for a point inside not above 0. Gradients, x y z each, point out of the shape;
+     * their length does not matter. Steps call it on several threads at once, with at most 8 points. It must not call
+     * the grid. */
+    VOX_OPTIONAL void (*field)(const double* points, uint64_t count, double* distances, double* gradients, void* user);
+    VOX_OPTIONAL void* field_user; /* passed to `field` as `user` */
     uint64_t user_data;
     vox_filter filter; /* self-collision, rings and rest distance have no meaning */
 } vox_shape_desc;

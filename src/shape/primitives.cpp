@@ -101,7 +101,7 @@ bool BoxShape::look(const Vec3d& p, double reach, ShapePoint& out) const {
 
 // ---- field ----------------------------------------------------------------------------------------
 
-Field::Field(vox_distance_field* evaluate, void* user, const Vec3d& half_size) noexcept
+Field::Field(Evaluate* evaluate, void* user, const Vec3d& half_size) noexcept
     : RigidShape(VOX_SHAPE_FIELD, {-1.0 * half_size, half_size}), evaluate_(evaluate), user_(user) {}
 
 std::uint32_t Field::look(std::span<const Vec3d> points, double reach, ShapePoint* out) const {

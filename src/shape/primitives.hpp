@@ -46,7 +46,10 @@ private:
 // A distance that the caller computes.
 class Field final : public RigidShape {
 public:
-    Field(vox_distance_field* evaluate, void* user, const Vec3d& half_size) noexcept;
+    using Evaluate = void(const double* points, std::uint64_t count, double* distances, double* gradients,
+                          void* user);
+
+    Field(Evaluate* evaluate, void* user, const Vec3d& half_size) noexcept;
     bool look(const Vec3d& p, double reach, ShapePoint& out) const override {
         return look({&p, 1}, reach, &out) != 0;
     }
@@ -54,7 +57,7 @@ public:
     double meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at) const override;
 
 private:
-    vox_distance_field* evaluate_;
+    Evaluate* evaluate_;
     void* user_;
 };
 

@@ -133,6 +133,32 @@ namespace Voxtet
         None = 2,
     }
 
+    /// <summary>Shapes are given in a frame of their own. vox_body_set_transform places them, and moves them from step
+    /// to step.</summary>
+    public enum ShapeKind : int
+    {
+        None = 0,
+        /// <summary>z &lt;= 0: a floor</summary>
+        HalfSpace = 1,
+        /// <summary>around the origin: radius</summary>
+        Sphere = 2,
+        /// <summary>along the z axis, around the origin: radius, half_length</summary>
+        Capsule = 3,
+        /// <summary>likewise, with flat ends</summary>
+        Cylinder = 4,
+        /// <summary>around the origin: half_size</summary>
+        Box = 5,
+        /// <summary>terrain, solid below: heights, columns, rows, spacing</summary>
+        Heightfield = 6,
+        /// <summary>the inside of a closed surface: positions, triangles</summary>
+        Solid = 7,
+        /// <summary>what is within `radius` of triangles, such as a blade or a wall, or of segments, such as a needle,
+        /// which are triangles that name a vertex twice</summary>
+        Sheet = 8,
+        /// <summary>where a function of the caller is not positive: field, half_size</summary>
+        Field = 9,
+    }
+
     /// <summary>How serious a line of the log is.</summary>
     public enum LogLevel : int
     {
@@ -432,6 +458,19 @@ namespace Voxtet
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct Double2
+    {
+        public double x, y;
+        public const int Length = 2;
+        public double this[int i]
+        {
+            get { Check(i); fixed (double* p = &x) return p[i]; }
+            set { Check(i); fixed (double* p = &x) p[i] = value; }
+        }
+        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Double4
     {
         public double x, y, z, w;
@@ -558,19 +597,6 @@ namespace Voxtet
         {
             get { Check(i); fixed (double* p = &e0) return p[i]; }
             set { Check(i); fixed (double* p = &e0) p[i] = value; }
-        }
-        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct Double2
-    {
-        public double x, y;
-        public const int Length = 2;
-        public double this[int i]
-        {
-            get { Check(i); fixed (double* p = &x) return p[i]; }
-            set { Check(i); fixed (double* p = &x) p[i] = value; }
         }
         static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
     }
@@ -719,7 +745,7 @@ namespace Voxtet
         /// <summary>those beyond `count` are 0, and so are their weights</summary>
         public Uint5 vertices;
         /// <summary>tetrahedron of body_b: the lowest that contains the vertex; with a face, the tetrahedron behind
-        /// it</summary>
+        /// it.</summary>
         public uint element_b;
         public Double5 weights;
         /// <summary>a unit vector out of body_b, the way for body_a</summary>
@@ -776,8 +802,8 @@ namespace Voxtet
     internal unsafe struct BodyInfo
     {
         public uint struct_size;
-        /// <summary>0</summary>
-        public uint reserved;
+        /// <summary>vox_shape_kind; VOX_SHAPE_NONE for a mesh</summary>
+        public uint shape;
         public ulong user_data;
         /// <summary>1 or 0</summary>
         public uint enabled;
@@ -791,6 +817,37 @@ namespace Voxtet
         public Positions positions;
         public Filter filter;
         public Double12 transform;
+    }
+
+    /// <summary>A rigid shape.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct ShapeDesc
+    {
+        public uint struct_size;
+        public ShapeKind kind;
+        public double radius;
+        /// <summary>of a capsule, between the centres of its round ends</summary>
+        public double half_length;
+        /// <summary>half the sides of a box; of a box around the origin that holds the shape of a field</summary>
+        public Double3 half_size;
+        public Positions positions;
+        /// <summary>3 * triangle_count vertex indices; of a SOLID counter-clockwise as seen from outside</summary>
+        public uint* triangles;
+        public ulong triangle_count;
+        /// <summary>columns * rows numbers: z at x = column * spacing[0], y = row * spacing[1] is heights[row * columns
+        /// + column]; between them, two triangles with the diagonal from the lower left to the upper right</summary>
+        public double* heights;
+        public uint columns;
+        public uint rows;
+        public Double2 spacing;
+        /// <summary>Computes the distances of `count` points, x y z each, from the shape in its frame: for a point
+        /// outside at most the true distance, up to rounding; for a point inside not above 0.</summary>
+        public IntPtr field;
+        /// <summary>passed to `field` as `user`</summary>
+        public IntPtr field_user;
+        public ulong user_data;
+        /// <summary>self-collision, rings and rest distance have no meaning</summary>
+        public Filter filter;
     }
 
     /// <summary>A grid as it is now, and what its last successful step did.</summary>
@@ -1742,6 +1799,9 @@ namespace Voxtet
     internal delegate double ForeignRun(double cell_size, IntPtr user);
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    internal delegate void ShapeDescField(double* points, ulong count, double* distances, double* gradients, IntPtr user);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     internal delegate IntPtr AllocatorAllocate(UIntPtr size, UIntPtr alignment, IntPtr user);
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
@@ -1927,6 +1987,14 @@ namespace Voxtet
         /// may be null if it is 0.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_get_bodies(IntPtr grid, uint* bodies, ulong capacity, ulong* out_count);
+
+        /// <summary>Adds a shape, which takes part from the next step on.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_shape_insert(IntPtr grid, ShapeDesc* desc, uint* out_body);
+
+        /// <summary>Says where a shape was before.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_shape_set_previous_transform(IntPtr grid, uint body, double* matrix);
 
         /// <summary>Removes all bodies and results, and keeps the settings.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2506,7 +2574,7 @@ namespace Voxtet
             byte* begin = (byte*)&s;
             entries.Add(Entry("vox_body_info", sizeof(BodyInfo), 216, 216));
             entries.Add(Entry("vox_body_info.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_body_info.reserved", (byte*)&s.reserved - begin, 4, 4));
+            entries.Add(Entry("vox_body_info.shape", (byte*)&s.shape - begin, 4, 4));
             entries.Add(Entry("vox_body_info.user_data", (byte*)&s.user_data - begin, 8, 8));
             entries.Add(Entry("vox_body_info.enabled", (byte*)&s.enabled - begin, 16, 16));
             entries.Add(Entry("vox_body_info.flags", (byte*)&s.flags - begin, 20, 20));
@@ -2515,6 +2583,29 @@ namespace Voxtet
             entries.Add(Entry("vox_body_info.positions", (byte*)&s.positions - begin, 40, 40));
             entries.Add(Entry("vox_body_info.filter", (byte*)&s.filter - begin, 80, 80));
             entries.Add(Entry("vox_body_info.transform", (byte*)&s.transform - begin, 120, 120));
+        }
+
+        static void AddShapeDesc(List<LayoutEntry> entries)
+        {
+            ShapeDesc s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_shape_desc", sizeof(ShapeDesc), 200, 192));
+            entries.Add(Entry("vox_shape_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_shape_desc.kind", (byte*)&s.kind - begin, 4, 4));
+            entries.Add(Entry("vox_shape_desc.radius", (byte*)&s.radius - begin, 8, 8));
+            entries.Add(Entry("vox_shape_desc.half_length", (byte*)&s.half_length - begin, 16, 16));
+            entries.Add(Entry("vox_shape_desc.half_size", (byte*)&s.half_size - begin, 24, 24));
+            entries.Add(Entry("vox_shape_desc.positions", (byte*)&s.positions - begin, 48, 48));
+            entries.Add(Entry("vox_shape_desc.triangles", (byte*)&s.triangles - begin, 88, 88));
+            entries.Add(Entry("vox_shape_desc.triangle_count", (byte*)&s.triangle_count - begin, 96, 96));
+            entries.Add(Entry("vox_shape_desc.heights", (byte*)&s.heights - begin, 104, 104));
+            entries.Add(Entry("vox_shape_desc.columns", (byte*)&s.columns - begin, 112, 108));
+            entries.Add(Entry("vox_shape_desc.rows", (byte*)&s.rows - begin, 116, 112));
+            entries.Add(Entry("vox_shape_desc.spacing", (byte*)&s.spacing - begin, 120, 120));
+            entries.Add(Entry("vox_shape_desc.field", (byte*)&s.field - begin, 136, 136));
+            entries.Add(Entry("vox_shape_desc.field_user", (byte*)&s.field_user - begin, 144, 140));
+            entries.Add(Entry("vox_shape_desc.user_data", (byte*)&s.user_data - begin, 152, 144));
+            entries.Add(Entry("vox_shape_desc.filter", (byte*)&s.filter - begin, 160, 152));
         }
 
         static void AddGridInfo(List<LayoutEntry> entries)
@@ -3286,6 +3377,7 @@ namespace Voxtet
             AddConstraintDesc(entries);
             AddConstraintView(entries);
             AddBodyInfo(entries);
+            AddShapeDesc(entries);
             AddGridInfo(entries);
             AddCounter(entries);
             AddCounterView(entries);

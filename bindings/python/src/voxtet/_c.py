@@ -97,6 +97,19 @@ class DepthMethod(enum.IntEnum):
     NONE = 2
 
 
+class ShapeKind(enum.IntEnum):
+    NONE = 0
+    HALF_SPACE = 1
+    SPHERE = 2
+    CAPSULE = 3
+    CYLINDER = 4
+    BOX = 5
+    HEIGHTFIELD = 6
+    SOLID = 7
+    SHEET = 8
+    FIELD = 9
+
+
 class LogLevel(enum.IntEnum):
     INFO = 0
     WARNING = 1
@@ -467,7 +480,7 @@ class vox_constraint_view(Structure):
 class vox_body_info(Structure):
     _fields_ = [
         ("struct_size", c_uint32),
-        ("reserved", c_uint32),
+        ("shape", c_uint32),
         ("user_data", c_uint64),
         ("enabled", c_uint32),
         ("flags", c_uint32),
@@ -476,6 +489,28 @@ class vox_body_info(Structure):
         ("positions", vox_positions),
         ("filter", vox_filter),
         ("transform", c_double * 12),
+    ]
+
+
+vox_shape_desc_field = CFUNCTYPE(None, c_void_p, c_uint64, c_void_p, c_void_p, c_void_p)
+class vox_shape_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("kind", c_int32),
+        ("radius", c_double),
+        ("half_length", c_double),
+        ("half_size", c_double * 3),
+        ("positions", vox_positions),
+        ("triangles", c_void_p),
+        ("triangle_count", c_uint64),
+        ("heights", c_void_p),
+        ("columns", c_uint32),
+        ("rows", c_uint32),
+        ("spacing", c_double * 2),
+        ("field", vox_shape_desc_field),
+        ("field_user", c_void_p),
+        ("user_data", c_uint64),
+        ("filter", vox_filter),
     ]
 
 
@@ -1269,6 +1304,8 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_body_get_user_data": (vox_result, (c_void_p, c_uint32, POINTER(c_uint64))),
         "vox_body_is_valid": (c_uint32, (c_void_p, c_uint32)),
         "vox_grid_get_bodies": (vox_result, (c_void_p, c_void_p, c_uint64, POINTER(c_uint64))),
+        "vox_shape_insert": (vox_result, (c_void_p, POINTER(vox_shape_desc), POINTER(c_uint32))),
+        "vox_shape_set_previous_transform": (vox_result, (c_void_p, c_uint32, c_void_p)),
         "vox_grid_clear": (vox_result, (c_void_p,)),
         "vox_grid_reserve": (vox_result, (c_void_p, c_uint32, c_uint64)),
         "vox_grid_set_cell_size": (vox_result, (c_void_p, c_double)),

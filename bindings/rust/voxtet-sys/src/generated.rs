@@ -150,6 +150,29 @@ pub const VOX_DEPTH_METHOD_CLOSEST: vox_depth_method = 1;
 /// none: vertices, weights and position alone. Quick
 pub const VOX_DEPTH_METHOD_NONE: vox_depth_method = 2;
 
+/// Shapes are given in a frame of their own. vox_body_set_transform places them, and moves them from step to step.
+pub type vox_shape_kind = i32;
+pub const VOX_SHAPE_NONE: vox_shape_kind = 0;
+/// z <= 0: a floor
+pub const VOX_SHAPE_HALF_SPACE: vox_shape_kind = 1;
+/// around the origin: radius
+pub const VOX_SHAPE_SPHERE: vox_shape_kind = 2;
+/// along the z axis, around the origin: radius, half_length
+pub const VOX_SHAPE_CAPSULE: vox_shape_kind = 3;
+/// likewise, with flat ends
+pub const VOX_SHAPE_CYLINDER: vox_shape_kind = 4;
+/// around the origin: half_size
+pub const VOX_SHAPE_BOX: vox_shape_kind = 5;
+/// terrain, solid below: heights, columns, rows, spacing
+pub const VOX_SHAPE_HEIGHTFIELD: vox_shape_kind = 6;
+/// the inside of a closed surface: positions, triangles
+pub const VOX_SHAPE_SOLID: vox_shape_kind = 7;
+/// what is within `radius` of triangles, such as a blade or a wall, or of segments, such as a needle, which are
+/// triangles that name a vertex twice
+pub const VOX_SHAPE_SHEET: vox_shape_kind = 8;
+/// where a function of the caller is not positive: field, half_size
+pub const VOX_SHAPE_FIELD: vox_shape_kind = 9;
+
 /// How serious a line of the log is.
 pub type vox_log_level = i32;
 pub const VOX_LOG_INFO: vox_log_level = 0;
@@ -350,8 +373,8 @@ pub const VOX_SIM_BODY_SELF_COLLISION: vox_sim_body_flags = 1;
 /// never moves; others collide with it
 pub const VOX_SIM_BODY_FIXED: vox_sim_body_flags = 2;
 
-/// A body of a grid: a mesh. An id is never used again in the same grid. Ids ascend with slots, so in a new grid they
-/// ascend in the order of insertion.
+/// A body of a grid: a mesh or a rigid shape. An id is never used again in the same grid. Ids ascend with slots, so in
+/// a new grid they ascend in the order of insertion.
 pub type vox_body = u32;
 
 /// A set of bodies, and the settings for finding their contacts.
@@ -474,8 +497,8 @@ pub struct vox_filter {
     pub self_rest_distance: f64,
 }
 
-/// A mesh: vertices, and tetrahedra between them. A mesh without tetrahedra is a set of points: they collide with the
-/// tetrahedra of other meshes, the edges and faces between them with nothing.
+/// A mesh: vertices, and tetrahedra between them. A mesh without tetrahedra is a set of points, which collide with
+/// tetrahedra and shapes; edges and faces between them collide with nothing.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_mesh_desc {
@@ -557,7 +580,8 @@ pub struct vox_pair_view {
 /// velocity of the point of body_a relative to the point of body_b, for damping and friction. kind vertices of body_a
 /// vertices of body_b gap in the step INSIDE the vertex the tetrahedron that contains it minus the depth EDGE the edge
 /// the face minus the depth of its part inside, from the middle of that part PROXIMITY the vertex the face with the
-/// closest point the distance IMPACT the vertex the face that it met first minus the distance behind its plane
+/// closest point the distance IMPACT the vertex the face that it met first minus the distance behind its plane A rigid
+/// shape has no vertices and is always body_b. The plane of an IMPACT with it moves as the shape does.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_constraint {
@@ -571,7 +595,8 @@ pub struct vox_constraint {
     pub count: u32,
     /// those beyond `count` are 0, and so are their weights
     pub vertices: [u32; 5],
-    /// tetrahedron of body_b: the lowest that contains the vertex; with a face, the tetrahedron behind it
+    /// tetrahedron of body_b: the lowest that contains the vertex; with a face, the tetrahedron behind it. Triangle of
+    /// a shape; VOX_NONE if it has none
     pub element_b: u32,
     pub weights: [f64; 5],
     /// a unit vector out of body_b, the way for body_a
@@ -628,8 +653,8 @@ pub struct vox_constraint_view {
 #[derive(Clone, Copy, Debug)]
 pub struct vox_body_info {
     pub struct_size: u32,
-    /// 0
-    pub reserved: u32,
+    /// vox_shape_kind; VOX_SHAPE_NONE for a mesh
+    pub shape: u32,
     pub user_data: u64,
     /// 1 or 0
     pub enabled: u32,
@@ -642,6 +667,40 @@ pub struct vox_body_info {
     pub positions: vox_positions,
     pub filter: vox_filter,
     pub transform: [f64; 12],
+}
+
+/// A rigid shape. It is copied as a whole. Lengths may be 0.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_shape_desc {
+    pub struct_size: u32,
+    pub kind: vox_shape_kind,
+    pub radius: f64,
+    /// of a capsule, between the centres of its round ends
+    pub half_length: f64,
+    /// half the sides of a box; of a box around the origin that holds the shape of a field
+    pub half_size: [f64; 3],
+    pub positions: vox_positions,
+    /// 3 * triangle_count vertex indices; of a SOLID counter-clockwise as seen from outside
+    pub triangles: *const u32,
+    pub triangle_count: u64,
+    /// columns * rows numbers: z at x = column * spacing[0], y = row * spacing[1] is heights[row * columns + column];
+    /// between them, two triangles with the diagonal from the lower left to the upper right
+    pub heights: *const f64,
+    pub columns: u32,
+    pub rows: u32,
+    pub spacing: [f64; 2],
+    #[rustfmt::skip]
+    /// Computes the distances of `count` points, x y z each, from the shape in its frame: for a point outside at most
+    /// the true distance, up to rounding; for a point inside not above 0. Gradients, x y z each, point out of the
+    /// shape; their length does not matter. Steps call it on several threads at once, with at most 8 points. It must
+    /// not call the grid.
+    pub field: Option<unsafe extern "C" fn(points: *const f64, count: u64, distances: *mut f64, gradients: *mut f64, user: *mut c_void)>,
+    /// passed to `field` as `user`
+    pub field_user: *mut c_void,
+    pub user_data: u64,
+    /// self-collision, rings and rest distance have no meaning
+    pub filter: vox_filter,
 }
 
 /// A grid as it is now, and what its last successful step did.
@@ -1696,8 +1755,9 @@ extern "C" {
     ) -> vox_result;
     /// Places a body. In the following steps a position x, y, z stands for x' = ((m[0] * x + m[1] * y) + m[2] * z) +
     /// m[3], y' likewise with m[4..7], z' with m[8..11], computed in double in this order. Contacts are exact for x',
-    /// y', z'. It is any affine map, and copied; null: none. Errors: INVALID_ARGUMENT (a number that is not finite),
-    /// BUDGET, OUT_OF_MEMORY.
+    /// y', z'. The matrix is copied; null: none. For a mesh it is any affine map; for a shape it rotates, moves, and
+    /// scales all axes alike, and may be off by rounding to floats. Errors: INVALID_ARGUMENT (a number that is not
+    /// finite, a map that is not of this kind), BUDGET, OUT_OF_MEMORY.
     pub fn vox_body_set_transform(
         grid: *mut vox_grid,
         body: vox_body,
@@ -1764,6 +1824,28 @@ extern "C" {
         bodies: *mut vox_body,
         capacity: u64,
         out_count: *mut u64,
+    ) -> vox_result;
+    /// Adds a shape, which takes part from the next step on. The vertices of meshes collide with it; shapes do not
+    /// collide with each other. A shape has pairs and constraints, but no contacts, and is always body_b of a
+    /// constraint. A vertex is looked at in the shape's frame, where its place is computed in double. Whether that
+    /// place is in the shape is decided exactly for all kinds but FIELD and a SHEET with a radius. Surfaces belong to
+    /// shapes. The gap is the exact distance rounded once for HALF_SPACE, SPHERE and BOX, unless the shape is scaled;
+    /// within a few units in the last place for the others, where the vertex is not much closer than the size of its
+    /// coordinates. Errors: INVALID_ARGUMENT, INVALID_MESH (e.g. an open SOLID), NON_FINITE, LIMIT, BUDGET,
+    /// OUT_OF_MEMORY.
+    pub fn vox_shape_insert(
+        grid: *mut vox_grid,
+        desc: *const vox_shape_desc,
+        out_body: *mut vox_body,
+    ) -> vox_result;
+    /// Says where a shape was before. In the following steps it moves from there to its transform, and steps also find
+    /// IMPACT constraints with it. Each vertex moves through the shape's frame in a straight line, at constant speed.
+    /// The matrix is as in vox_body_set_transform, and copied; null ends this. Snapshots do not keep it. Errors:
+    /// INVALID_ARGUMENT (e.g. a mesh, which has vox_mesh_bind_previous_positions), OUT_OF_MEMORY, BUDGET.
+    pub fn vox_shape_set_previous_transform(
+        grid: *mut vox_grid,
+        body: vox_body,
+        matrix: *const [f64; 12],
     ) -> vox_result;
     /// Removes all bodies and results, and keeps the settings. The next step ends all pairs.
     pub fn vox_grid_clear(grid: *mut vox_grid) -> vox_result;
@@ -2402,9 +2484,13 @@ layouts! {
         body_b: [12, 12], mask: [16, 16], closest_budget: [24, 24] }
     vox_constraint_view: size [32, 32], alignment [8, 8], { data: [0, 0], count: [8, 8], pair_offsets: [16, 16],
         pair_count: [24, 24] }
-    vox_body_info: size [216, 216], alignment [8, 8], { struct_size: [0, 0], reserved: [4, 4], user_data: [8, 8],
+    vox_body_info: size [216, 216], alignment [8, 8], { struct_size: [0, 0], shape: [4, 4], user_data: [8, 8],
         enabled: [16, 16], flags: [20, 20], tet_count: [24, 24], enabled_tet_count: [32, 32], positions: [40, 40],
         filter: [80, 80], transform: [120, 120] }
+    vox_shape_desc: size [200, 192], alignment [8, 8], { struct_size: [0, 0], kind: [4, 4], radius: [8, 8],
+        half_length: [16, 16], half_size: [24, 24], positions: [48, 48], triangles: [88, 88], triangle_count: [96, 96],
+        heights: [104, 104], columns: [112, 108], rows: [116, 112], spacing: [120, 120], field: [136, 136],
+        field_user: [144, 140], user_data: [152, 144], filter: [160, 152] }
     vox_grid_info: size [88, 88], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], epoch: [8, 8],
         cell_size: [16, 16], margin: [24, 24], bytes: [32, 32], peak_bytes: [40, 40], step_ns: [48, 48],
         moved_bodies: [56, 56], skipped_bodies: [64, 64], total_began: [72, 72], total_ended: [80, 80] }
