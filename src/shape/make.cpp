@@ -116,7 +116,7 @@ std::shared_ptr<const RigidShape> make_shape(const vox_shape_desc& desc, std::pm
         check_length(desc.radius, "radius");
         check_length(desc.half_length, "half_length");
         return made<Cylinder>(memory, desc.radius, desc.half_length);
-    case VOX_SHAPE_BOX: return made<BoxShape>(memory, read_half_size(desc));
+    case VOX_SHAPE_BOX: return made<BoxShape>(memory, read_half_size(desc), memory);
     case VOX_SHAPE_HEIGHTFIELD: return made<Heightfield>(memory, read_heights(desc, memory), desc.columns, desc.rows);
     case VOX_SHAPE_SOLID:
         return made<ClosedSurface>(memory, read_points(desc, memory), read_triangles(desc, memory));

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace vox {
 
@@ -76,8 +77,24 @@ bool Cylinder::look(const Vec3d& p, double reach, ShapePoint& out) const {
     return decide(false, Stretch(way).length, reach, out);
 }
 
-BoxShape::BoxShape(const Vec3d& half_size) noexcept
-    : RigidShape(VOX_SHAPE_BOX, {-1.0 * half_size, half_size}), half_size_(half_size) {}
+namespace {
+
+ShapeFacets box_facets(const Vec3d& half, std::pmr::memory_resource* memory) {
+    Array<Vec3d> points(memory);
+    points.reserve(8);
+    for (int i = 0; i < 8; ++i)
+        points.push_back({i & 1 ? half.x : -half.x, i & 2 ? half.y : -half.y, i & 4 ? half.z : -half.z});
+    return {std::move(points), Array<ShapeTriangle>({{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6},
+                                                     {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3},
+                                                     {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}},
+                                                    memory)};
+}
+
+} // namespace
+
+BoxShape::BoxShape(const Vec3d& half_size, std::pmr::memory_resource* memory)
+    : RigidShape(VOX_SHAPE_BOX, {-1.0 * half_size, half_size}), half_size_(half_size),
+      facets_(box_facets(half_size, memory)) {}
 
 bool BoxShape::look(const Vec3d& p, double reach, ShapePoint& out) const {
     const double at[3] = {p.x, p.y, p.z}, half[3] = {half_size_.x, half_size_.y, half_size_.z};

@@ -2,7 +2,10 @@
 // in the shape's frame.
 #pragma once
 
+#include "shape/facets.hpp"
 #include "shape/shape.hpp"
+
+#include <memory_resource>
 
 namespace vox {
 
@@ -36,11 +39,13 @@ private:
 
 class BoxShape final : public RigidShape {
 public:
-    explicit BoxShape(const Vec3d& half_size) noexcept;
+    BoxShape(const Vec3d& half_size, std::pmr::memory_resource* memory);
     bool look(const Vec3d& p, double reach, ShapePoint& out) const override;
+    const ShapeFacets* facets() const noexcept override { return &facets_; }
 
 private:
     Vec3d half_size_;
+    ShapeFacets facets_; // corner i + 2 j + 4 k, two triangles a side
 };
 
 // A distance that the caller computes.

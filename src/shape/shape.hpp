@@ -26,6 +26,8 @@ struct ShapePoint {
 inline constexpr double no_shape_meeting = 2;
 inline constexpr double unlimited = std::numeric_limits<double>::infinity();
 
+struct ShapeFacets;
+
 class RigidShape {
 public:
     struct Bounds {
@@ -47,6 +49,8 @@ public:
     // When a point that moves in a straight line, and begins outside, first meets the shape: from 0 to 1 and
     // never too late, with what it sees there; no_shape_meeting if it never does.
     virtual double meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at) const;
+    // Flat sides, which edges of meshes pass through; null for a shape without.
+    virtual const ShapeFacets* facets() const noexcept { return nullptr; }
 
 protected:
     RigidShape(vox_shape_kind kind, const Bounds& bounds) noexcept : kind_(kind), bounds_(bounds) {}

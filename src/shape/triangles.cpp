@@ -2,8 +2,6 @@
 
 #include "base/entry_bound.hpp"
 #include "base/error.hpp"
-#include "base/parallel.hpp"
-#include "base/rounding.hpp"
 #include "base/vectors.hpp"
 #include "exact/closest_point.hpp"
 #include "exact/crossing.hpp"
@@ -30,25 +28,15 @@ RigidShape::Bounds bounds_of(std::span<const Vec3d> points, double radius) noexc
 
 TriangleShape::TriangleShape(vox_shape_kind kind, Array<Vec3d>&& points, Array<ShapeTriangle>&& triangles,
                              double radius)
-    : RigidShape(kind, bounds_of(points, radius)), points_(std::move(points)),
-      triangles_(std::move(triangles)), tree_(triangles_.memory()), radius_(radius) {
-    Array<Box3f> boxes(triangles_.memory());
-    boxes.reserve(triangles_.size());
-    for (const auto& [a, b, c] : triangles_) {
-        Box3f& box = boxes.emplace_back(rounded_box(points_[a]));
-        extend(box, rounded_box(points_[b]));
-        extend(box, rounded_box(points_[c]));
-    }
-    Workers alone({}, 0);
-    tree_.build(boxes, alone);
-}
+    : RigidShape(kind, bounds_of(points, radius)), facets_(std::move(points), std::move(triangles)),
+      radius_(radius) {}
 
 // ---- what a point sees ----------------------------------------------------------------------------
 
 // One triangle, with `radius_` around it. Its distance is negative for a point that is enclosed.
 void TriangleShape::look_at(const Vec3d& p, std::uint32_t triangle, bool is_enclosed,
                             ShapePoint& out) const noexcept {
-    const ShapeTriangle& t = triangles_[triangle];
+    const ShapeTriangle& t = facets_.triangles[triangle];
     const Vec3d &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
     const SeenPoint seen = closest_seen_from(p, a, b, c);
     const Stretch way(seen.way);
@@ -74,10 +62,10 @@ bool TriangleShape::look(const Vec3d& p, double reach, ShapePoint& out) const {
     const double far = is_enclosed ? unlimited : (reach + radius_) * (1 + 0x1p-40);
     double most = far * far; // distance, squared
     std::uint32_t nearest = VOX_NONE;
-    tree_.visit_nearest_first(
+    facets_.triangle_tree.visit_nearest_first(
         most, [&](const Box3f& box) { return squared_distance_bound(p, box); },
         [&](std::uint32_t triangle) {
-            const ShapeTriangle& t = triangles_[triangle];
+            const ShapeTriangle& t = facets_.triangles[triangle];
             const double squared =
                 closest_seen_from(p, corner(t, 0), corner(t, 1), corner(t, 2)).at.squared_distance;
             if (squared > most || (squared == most && nearest < triangle)) return;
@@ -95,7 +83,7 @@ bool TriangleShape::look(const Vec3d& p, double reach, ShapePoint& out) const {
 bool TriangleShape::is_beyond(const Vec3d& centre, double radius, double reach) const {
     const double far = (radius + reach + radius_) * (1 + 0x1p-40);
     bool is_near = false;
-    tree_.visit_accepted(
+    facets_.triangle_tree.visit_accepted(
         [&](const Box3f& box) { return !is_near && squared_distance_bound(centre, box) <= far * far; },
         [&](std::uint32_t) { is_near = true; });
     return !is_near && !encloses(centre);
@@ -106,7 +94,7 @@ double TriangleShape::meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at
     const auto grow = static_cast<float>(radius_ * 1.0001);
     double earliest = 1;
     std::uint32_t first = VOX_NONE;
-    tree_.visit_nearest_first(
+    facets_.triangle_tree.visit_nearest_first(
         earliest,
         [&](Box3f box) {
             box.min = {box.min.x - grow, box.min.y - grow, box.min.z - grow};
@@ -128,9 +116,9 @@ double TriangleShape::meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at
 bool TriangleShape::is_on_surface(const Vec3d& p) const {
     bool is_on = false;
     std::uint64_t exact_tests = 0;
-    tree_.visit_accepted([&](const Box3f& box) { return !is_on && contains(box, p); },
+    facets_.triangle_tree.visit_accepted([&](const Box3f& box) { return !is_on && contains(box, p); },
                          [&](std::uint32_t triangle) {
-                             const ShapeTriangle& t = triangles_[triangle];
+                             const ShapeTriangle& t = facets_.triangles[triangle];
                              const Vec3d &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
                              is_on = is_on || (orientation(a, b, c, p, exact_tests) == 0 &&
                                                find_crossing(p, p, a, b, c, exact_tests).kind !=
@@ -188,7 +176,7 @@ void check_closed(std::span<const ShapeTriangle> triangles, std::pmr::memory_res
 
 ClosedSurface::ClosedSurface(Array<Vec3d>&& points, Array<ShapeTriangle>&& triangles)
     : TriangleShape(VOX_SHAPE_SOLID, std::move(points), std::move(triangles), 0) {
-    check_closed(triangles_, triangles_.memory());
+    check_closed(facets_.triangles, facets_.triangles.memory());
 }
 
 // How often the surface goes around p: its triangles above p, each with the sign of the side that it shows
@@ -201,13 +189,13 @@ bool ClosedSurface::encloses(const Vec3d& p) const {
     int turns = 0;
     bool is_on = false;
     std::uint64_t exact_tests = 0;
-    tree_.visit_accepted(
+    facets_.triangle_tree.visit_accepted(
         [&](const Box3f& box) {
             return double{box.min.x} <= p.x && p.x <= double{box.max.x} && double{box.min.y} <= p.y &&
                    p.y <= double{box.max.y} && p.z <= double{box.max.z};
         },
         [&](std::uint32_t triangle) {
-            const ShapeTriangle& t = triangles_[triangle];
+            const ShapeTriangle& t = facets_.triangles[triangle];
             const Vec3d &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
             const int of_ab = side_from_above(a, b, p, exact_tests);
             if (of_ab == 0 || side_from_above(b, c, p, exact_tests) != of_ab ||
@@ -257,15 +245,15 @@ bool Heightfield::encloses(const Vec3d& p) const {
         }
         return low;
     };
-    const std::uint32_t column = cell(p.x, columns_, [&](std::uint32_t i) { return points_[i].x; }),
-                        row = cell(p.y, rows_, [&](std::uint32_t i) { return points_[i * std::size_t{columns_}].y; });
+    const std::uint32_t column = cell(p.x, columns_, [&](std::uint32_t i) { return facets_.points[i].x; }),
+                        row = cell(p.y, rows_, [&](std::uint32_t i) { return facets_.points[i * std::size_t{columns_}].y; });
     const std::size_t first = 2 * (row * (std::size_t{columns_} - 1) + column);
-    const ShapeTriangle& lower = triangles_[first];
+    const ShapeTriangle& lower = facets_.triangles[first];
     const Vec3d &a = corner(lower, 0), &c = corner(lower, 2);
     std::uint64_t exact_tests = 0;
     const bool is_left =
         orientation({a.x, a.y, 0}, {c.x, c.y, 0}, {p.x, p.y, 0}, {a.x, a.y, 1}, exact_tests) > 0;
-    const ShapeTriangle& t = triangles_[first + is_left];
+    const ShapeTriangle& t = facets_.triangles[first + is_left];
     return orientation(corner(t, 0), corner(t, 1), corner(t, 2), p, exact_tests) <= 0;
 }
 

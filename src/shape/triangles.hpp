@@ -1,23 +1,21 @@
-// Shapes of triangles, with a tree over their boxes.
+// Shapes of triangles.
 #pragma once
 
 #include "base/array.hpp"
-#include "base/box_tree.hpp"
+#include "shape/facets.hpp"
 #include "shape/shape.hpp"
 
-#include <array>
 #include <cstdint>
 #include <memory_resource>
 
 namespace vox {
-
-using ShapeTriangle = std::array<std::uint32_t, 3>;
 
 class TriangleShape : public RigidShape {
 public:
     bool look(const Vec3d& p, double reach, ShapePoint& out) const final;
     bool is_beyond(const Vec3d& centre, double radius, double reach) const final;
     double meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at) const final;
+    const ShapeFacets* facets() const noexcept final { return &facets_; }
 
 protected:
     // The triangles are part of the shape, and so is what is within `radius` of them.
@@ -28,12 +26,10 @@ protected:
     virtual bool encloses(const Vec3d& p) const = 0;
     bool is_on_surface(const Vec3d& p) const;
     const Vec3d& corner(const ShapeTriangle& triangle, std::size_t i) const noexcept {
-        return points_[triangle[i]];
+        return facets_.corner(triangle, i);
     }
 
-    Array<Vec3d> points_;
-    Array<ShapeTriangle> triangles_;
-    BoxTree tree_;
+    ShapeFacets facets_;
     double radius_;
 
 private:
