@@ -90,6 +90,10 @@ void Constraints::begin_step(bool last_succeeded) noexcept {
 Constraints::Key Constraints::key_of(const vox_constraint& c) noexcept {
     Key key{c.body_a, {c.vertices[0], 0, 0, 0, 0}};
     if (c.kind != VOX_CONSTRAINT_EDGE) return key;
+    if (c.count == c.count_a) { // with a shape
+        key.vertices = {c.vertices[0], c.vertices[1], c.vertices[2], c.count, c.element_b};
+        return key;
+    }
     std::copy(c.vertices, c.vertices + 5, key.vertices.begin());
     std::sort(key.vertices.begin() + 2, key.vertices.end());
     return key;
@@ -152,6 +156,7 @@ Constraints::Ends Constraints::list(const ConstraintSources& from) {
     ends[VOX_CONSTRAINT_INSIDE] = count();
     for (std::size_t i = 0; i < from.edges.size(); ++i)
         add(from.edges[i].body_a, from.edges[i].body_b, VOX_CONSTRAINT_EDGE, i);
+    add_shapes(VOX_CONSTRAINT_EDGE);
     ends[VOX_CONSTRAINT_EDGE] = count();
     std::size_t impact = 0; // no vertex has two constraints with one body
     for (std::size_t i = 0; i < from.proximities.size(); ++i) {
@@ -321,8 +326,9 @@ struct Writer {
 
     vox_body write_shape(std::uint32_t source, vox_constraint& c) const {
         const ShapeContact& contact = from.shapes[source];
-        c.count_a = c.count = 1;
-        c.vertices[0] = contact.vertex;
+        c.count_a = c.count = contact.count;
+        std::copy_n(contact.vertices, 3, c.vertices);
+        std::copy_n(contact.weights, 3, c.weights);
         c.element_b = contact.element;
         c.gap = contact.gap;
         c.state = contact.state;
@@ -356,12 +362,17 @@ void Constraints::write_others(const ConstraintSources& from, const Run& run, Pr
         write_vector(c.normal, vector_of(c.normal));
         c.previous = previous.find(run.kind, key_of(c));
         double sum = 0;
+        Vec3d at{0, 0, 0};
         for (std::uint32_t v = 0; v < c.count; ++v) {
             const Vec3d x = (v < c.count_a ? a : b).positions.exact(c.vertices[v]);
             if (v == 0 && run.kind != VOX_CONSTRAINT_EDGE) write_vector(c.position, x);
+            if (has_shape) at = at + c.weights[v] * x;
             sum += c.weights[v] * dot(vector_of(c.normal), x);
         }
-        if (run.kind == VOX_CONSTRAINT_EDGE) std::copy_n(from.edges[source].position, 3, c.position);
+        if (run.kind == VOX_CONSTRAINT_EDGE && has_shape)
+            write_vector(c.position, at);
+        else if (run.kind == VOX_CONSTRAINT_EDGE)
+            std::copy_n(from.edges[source].position, 3, c.position);
         c.offset = c.gap - sum;
     }
 }

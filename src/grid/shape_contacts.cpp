@@ -89,7 +89,7 @@ void ShapeContacts::surround_previous(const StepScene& scene) {
     }
 }
 
-void ShapeContacts::list_tasks(const StepScene& scene) {
+void ShapeContacts::list_tasks(const StepScene& scene, KeptFeatures& kept) {
     tasks_.clear();
     const auto place = [](const ShapeContact& contact) { return std::tuple(contact.body_a, contact.body_b); };
     std::size_t carried = 0, first_moving = 0;
@@ -101,41 +101,50 @@ void ShapeContacts::list_tasks(const StepScene& scene) {
         for (std::uint32_t p = 0; p < placed_.size(); ++p) {
             const Body& shape = scene.bodies[placed_[p].body];
             if (!collide(body, shape)) continue;
-            reserve_growing(tasks_, tasks_.size() + groups / task_groups + 1);
+            reserve_growing(tasks_, tasks_.size() + groups / task_groups + 2);
             if (!changed_ && !scene.of[a].moved && !has_previous(scene, a) && !placed_[p].moves) {
                 const std::tuple sought(body.mesh_id, shape.mesh_id);
-                const auto same = std::ranges::equal_range(std::span(all_).subspan(carried), sought, {}, place);
+                const auto same =
+                    std::ranges::equal_range(std::span(all_).subspan(carried), sought, {}, place);
                 const auto first = static_cast<std::size_t>(same.begin() - std::span(all_).begin());
                 carried = first + same.size();
-                if (!same.empty()) tasks_.push_back({a, p, first, carried, true, 0, 0, 0, 0});
+                if (!same.empty()) tasks_.push_back({a, p, first, carried, Does::carry, 0, 0, 0, 0});
                 continue;
             }
             for (std::size_t first = 0; first < groups; first += task_groups)
                 tasks_.push_back(
-                    {a, p, first, std::min(first + task_groups, groups), false, moving, 0, 0, 0});
+                    {a, p, first, std::min(first + task_groups, groups), Does::vertices, moving, 0, 0, 0});
+            if (!finds_edges_ || !shape.shape->facets() || scene.topologies[a]->triangles.empty() ||
+                !overlap(scene.boxes->bodies[a], box_of(scene, a, placed_[p])))
+                continue;
+            (void)kept.of(scene, a); // which may move those of others
+            tasks_.push_back({a, p, 0, 0, Does::edges, 0, 0, 0, 0});
         }
     }
+}
+
+// The box of floats, less the origin, that boxes of a mesh overlap where they may be in reach of a shape.
+Box ShapeContacts::box_of(const StepScene& scene, std::uint32_t body, const Placed& placed) const noexcept {
+    const Vec3d lo = placed.bounds.min - scene.origin, hi = placed.bounds.max - scene.origin;
+    const float slack = 2 * growth(scene.boxes->bodies[body], margin_);
+    Box box{{static_cast<float>(lo.x), static_cast<float>(lo.y), static_cast<float>(lo.z), 0},
+            {static_cast<float>(hi.x), static_cast<float>(hi.y), static_cast<float>(hi.z), 0}};
+    for (int i = 0; i < 3; ++i) { // also what large sides are rounded by
+        box.lo[i] -= slack + 0x1p-21f * std::abs(box.lo[i]);
+        box.hi[i] += slack + 0x1p-21f * std::abs(box.hi[i]);
+    }
+    return box;
 }
 
 // ---- one mesh and one shape -----------------------------------------------------------------------
 
 struct ShapeContacts::Search {
     Search(const ShapeContacts& of, const StepScene& step, const Task& task, Array<ShapeContact>& to)
-        : scene(step), body(step.bodies[task.body]), of_body(step.of[task.body]), placed(of.placed_[task.placed]),
-          shape(*placed.shape), out(to), margin(of.margin_), reach(margin / placed.now.scale()),
-          slack(growth(step.boxes->bodies[task.body], 0)),
-          has_previous(of.has_previous(step, task.body)), moves(has_previous || placed.moves) {
-        const RigidShape::Bounds& b = placed.bounds;
-        const Vec3d lo = b.min - step.origin, hi = b.max - step.origin;
-        // Rounded to floats and back, within what `slack` is twice.
-        box = {{static_cast<float>(lo.x), static_cast<float>(lo.y), static_cast<float>(lo.z), 0},
-               {static_cast<float>(hi.x), static_cast<float>(hi.y), static_cast<float>(hi.z), 0}};
-        const float by = 2 * slack + 0x1p-20f * static_cast<float>(std::min(margin, 0x1p100));
-        box = grown(box, by);
-        for (int i = 0; i < 3; ++i) { // what a float is off by, of large sides
-            box.lo[i] -= 0x1p-21f * std::abs(box.lo[i]);
-            box.hi[i] += 0x1p-21f * std::abs(box.hi[i]);
-        }
+        : scene(step), body(step.bodies[task.body]), of_body(step.of[task.body]),
+          placed(of.placed_[task.placed]), shape(*placed.shape), out(to), margin(of.margin_),
+          reach(margin / placed.now.scale()), slack(growth(step.boxes->bodies[task.body], 0)),
+          box(of.box_of(step, task.body, placed)), has_previous(of.has_previous(step, task.body)),
+          moves(has_previous || placed.moves) {
         if (has_previous) moving = of.moving_groups_.data() + task.first_moving;
     }
 
@@ -217,11 +226,13 @@ struct ShapeContacts::Search {
                                                                     : VOX_DEPTH_CLOSEST;
         reserve_growing(out, out.size() + 1);
         out.push_back({body.mesh_id,
-                       vertex,
                        scene.bodies[placed.body].mesh_id,
-                       seen.element,
                        kind,
                        state,
+                       1,
+                       seen.element,
+                       {vertex, 0, 0},
+                       {1, 0, 0},
                        gap,
                        time,
                        {normal.x, normal.y, normal.z}});
@@ -235,34 +246,44 @@ struct ShapeContacts::Search {
     Array<ShapeContact>& out;
     double margin, reach; // in the world and in the shape's frame
     float slack;          // what boxes of floats are off by
+    Box box;              // around the shape, for boxes of the mesh
     bool has_previous, moves;
-    Box box{};
     const Sphere* moving = nullptr;
 };
 
 // ---- all of them ----------------------------------------------------------------------------------
 
-void ShapeContacts::find(const StepScene& scene, KeptFeatures&) {
+void ShapeContacts::run(const StepScene& scene, KeptFeatures& kept, Task& task,
+                        Array<ShapeContact>& out) const {
+    task.begin = out.size();
+    if (task.does == Does::vertices) {
+        Search search(*this, scene, task, out);
+        const Box& all = scene.boxes->bodies[task.body];
+        if (search.moves || (overlap(all, search.box) && !search.is_beyond(search.around(all))))
+            for (std::size_t g = task.first; g < task.last; ++g) search.search_group(g);
+    } else if (task.does == Does::edges) {
+        const Placed& placed = placed_[task.placed];
+        find_shape_edges({scene, task.body, scene.bodies[placed.body], *placed.shape, placed.now,
+                          box_of(scene, task.body, placed)},
+                         kept.of(scene, task.body), out);
+    }
+    task.end = out.size();
+}
+
+void ShapeContacts::find(const StepScene& scene, KeptFeatures& kept) {
     place_shapes(scene);
     surround_previous(scene);
-    list_tasks(scene);
+    list_tasks(scene, kept);
     workers_.grow(scene.workers->count());
     for (Worker& worker : workers_) worker.found.clear();
-    const auto run = [&](std::size_t begin, std::size_t end, std::uint32_t w) {
-        for (Task& task : std::span(tasks_).subspan(begin, end - begin)) {
-            task.worker = w;
-            task.begin = workers_[w].found.size();
-            if (!task.carries) {
-                Search search(*this, scene, task, workers_[w].found);
-                const Box& all = scene.boxes->bodies[task.body];
-                if (search.moves || (overlap(all, search.box) && !search.is_beyond(search.around(all))))
-                    for (std::size_t g = task.first; g < task.last; ++g) search.search_group(g);
-            }
-            task.end = workers_[w].found.size();
-        }
-    };
     constexpr std::size_t least_tasks = 8;
-    scene.workers->for_ranges(tasks_.size(), least_tasks, run);
+    scene.workers->for_ranges(tasks_.size(), least_tasks,
+                              [&](std::size_t begin, std::size_t end, std::uint32_t w) {
+                                  for (Task& task : std::span(tasks_).subspan(begin, end - begin)) {
+                                      task.worker = w;
+                                      run(scene, kept, task, workers_[w].found);
+                                  }
+                              });
     list_results();
     check_contact_count(all_.size(), "contacts with shapes");
     changed_ = false;
@@ -271,15 +292,17 @@ void ShapeContacts::find(const StepScene& scene, KeptFeatures&) {
 void ShapeContacts::list_results() {
     found_.clear();
     std::size_t count = 0;
-    for (const Task& task : tasks_) count += task.carries ? task.last - task.first : task.end - task.begin;
+    for (const Task& task : tasks_)
+        count += task.does == Does::carry ? task.last - task.first : task.end - task.begin;
     reserve_sparingly(found_, count);
     carried_ = 0;
     for (const Task& task : tasks_) {
-        const ShapeContact* const from =
-            task.carries ? all_.data() + task.first : workers_[task.worker].found.data() + task.begin;
-        const std::size_t some = task.carries ? task.last - task.first : task.end - task.begin;
+        const ShapeContact* const from = task.does == Does::carry
+                                             ? all_.data() + task.first
+                                             : workers_[task.worker].found.data() + task.begin;
+        const std::size_t some = task.does == Does::carry ? task.last - task.first : task.end - task.begin;
         found_.insert(found_.end(), from, from + some);
-        if (task.carries) carried_ += some;
+        if (task.does == Does::carry) carried_ += some;
     }
     const bool all_carried = !changed_ && carried_ == found_.size() && carried_ == all_.size();
     std::swap(all_, found_);

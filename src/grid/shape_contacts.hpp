@@ -1,12 +1,12 @@
-// Contacts of vertices with rigid shapes: inside, within the margin, or passed through since their previous
-// places. For both engines alike.
+// Contacts with rigid shapes: vertices that are inside, within the margin, or passed through since their
+// previous places, at most one with each shape; and edges. For both engines alike.
 #pragma once
 
 #include "base/counters.hpp"
 #include "base/parallel.hpp"
 #include "base/per_worker.hpp"
 #include "fast/step_scene.hpp"
-#include "grid/surface_features.hpp"
+#include "grid/shape_edges.hpp"
 #include "shape/shape.hpp"
 
 #include <vox/vox.h>
@@ -25,18 +25,6 @@ class SurfaceTrees;
 }
 struct ConstraintSources;
 
-// A vertex has at most one with each shape.
-struct ShapeContact {
-    vox_body body_a;
-    std::uint32_t vertex;
-    vox_body body_b; // the shape
-    std::uint32_t element;
-    vox_constraint_kind kind;
-    vox_depth_state state;
-    double gap, time;
-    double normal[3];
-};
-
 class ShapeContacts {
 public:
     static constexpr auto time = &Profile::shapes_ns;
@@ -49,12 +37,16 @@ public:
         margin_ = margin;
         changed_ = true;
     }
+    void find_edges(bool find) noexcept {
+        finds_edges_ = find;
+        changed_ = true;
+    }
     // The transform that a shape had before; null: none. Throws what the memory throws.
     void bind_previous(vox_body shape, const double* matrix);
     // More than that meshes moved.
     void change() noexcept { changed_ = true; }
 
-    void find(const StepScene& scene, KeptFeatures&);
+    void find(const StepScene& scene, KeptFeatures& kept);
     void count(Counters& counters) const noexcept {
         counters.shape_contacts = all_.size();
         counters.carried_shape_contacts = carried_;
@@ -92,12 +84,13 @@ private:
         Vec3d centre;
         double radius;
     };
-    // Groups [first, last) of a mesh; or what is carried over from all_. Its results are in the order of
-    // vertices.
+    // Vertices of groups [first, last) of a mesh, in their order; its edges; or what is carried over from
+    // all_.
+    enum class Does { vertices, edges, carry };
     struct Task {
         std::uint32_t body, placed;
         std::size_t first, last;
-        bool carries;
+        Does does;
         std::size_t first_moving; // of the mesh, in moving_groups_
         std::uint32_t worker;
         std::size_t begin, end; // in that worker's list
@@ -112,13 +105,16 @@ private:
 
     void place_shapes(const StepScene& scene);
     void surround_previous(const StepScene& scene);
-    void list_tasks(const StepScene& scene);
+    void list_tasks(const StepScene& scene, KeptFeatures& kept);
+    void run(const StepScene& scene, KeptFeatures& kept, Task& task, Array<ShapeContact>& out) const;
     void list_results();
+    Box box_of(const StepScene& scene, std::uint32_t body, const Placed& placed) const noexcept;
     bool has_previous(const StepScene& scene, std::uint32_t body) const noexcept {
         return body < scene.previous.size() && scene.previous[body].data;
     }
 
     double margin_ = 0;
+    bool finds_edges_ = false;
     bool changed_ = true;
     Array<Previous> previous_; // by shape
 
@@ -129,7 +125,7 @@ private:
     PerWorker<Worker> workers_;
     Array<ShapeContact> found_;
 
-    // Results, sorted by (body_a, body_b, vertex).
+    // Results, sorted by (body_a, body_b), vertices before edges, each kind in order.
     Array<ShapeContact> all_;
     Array<vox_pair> pairs_;
     std::size_t carried_ = 0;

@@ -39,7 +39,10 @@ public:
     double margin() const noexcept { return margin_; }
 
     // What they look for; drop_unused() gives up what is without use then.
-    void find_edges(bool find) { (void)use<EdgeContacts>(find); }
+    void find_edges(bool find) {
+        (void)use<EdgeContacts>(find);
+        if (shapes()) shapes()->find_edges(find);
+    }
     void set_margin(double margin) {
         if (Proximities* const proximities = use<Proximities>(margin > 0)) proximities->set_margin(margin);
         margin_ = margin;
@@ -48,7 +51,9 @@ public:
     void find_shapes(bool find) {
         if (find == shapes().has_value()) return;
         (void)use<ShapeContacts>(find);
-        if (find) shapes()->set_margin(margin_);
+        if (!find) return;
+        shapes()->set_margin(margin_);
+        shapes()->find_edges(std::get<std::optional<EdgeContacts>>(stages_).has_value());
     }
     std::optional<ShapeContacts>& shapes() noexcept {
         return std::get<std::optional<ShapeContacts>>(stages_);

@@ -84,9 +84,18 @@ ShapeFacets box_facets(const Vec3d& half, std::pmr::memory_resource* memory) {
     points.reserve(8);
     for (int i = 0; i < 8; ++i)
         points.push_back({i & 1 ? half.x : -half.x, i & 2 ? half.y : -half.y, i & 4 ? half.z : -half.z});
-    return {std::move(points), Array<ShapeTriangle>({{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6},
-                                                     {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3},
-                                                     {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}},
+    return {std::move(points), Array<ShapeTriangle>({{0, 2, 3},
+                                                     {0, 3, 1},
+                                                     {4, 5, 7},
+                                                     {4, 7, 6},
+                                                     {0, 1, 5},
+                                                     {0, 5, 4},
+                                                     {2, 6, 7},
+                                                     {2, 7, 3},
+                                                     {0, 4, 6},
+                                                     {0, 6, 2},
+                                                     {1, 3, 7},
+                                                     {1, 7, 5}},
                                                     memory)};
 }
 

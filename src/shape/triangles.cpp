@@ -116,14 +116,14 @@ double TriangleShape::meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at
 bool TriangleShape::is_on_surface(const Vec3d& p) const {
     bool is_on = false;
     std::uint64_t exact_tests = 0;
-    facets_.triangle_tree.visit_accepted([&](const Box3f& box) { return !is_on && contains(box, p); },
-                         [&](std::uint32_t triangle) {
-                             const ShapeTriangle& t = facets_.triangles[triangle];
-                             const Vec3d &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
-                             is_on = is_on || (orientation(a, b, c, p, exact_tests) == 0 &&
-                                               find_crossing(p, p, a, b, c, exact_tests).kind !=
-                                                   CrossingKind::none);
-                         });
+    facets_.triangle_tree.visit_accepted(
+        [&](const Box3f& box) { return !is_on && contains(box, p); },
+        [&](std::uint32_t triangle) {
+            const ShapeTriangle& t = facets_.triangles[triangle];
+            const Vec3d &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
+            is_on = is_on || (orientation(a, b, c, p, exact_tests) == 0 &&
+                              find_crossing(p, p, a, b, c, exact_tests).kind != CrossingKind::none);
+        });
     return is_on;
 }
 
@@ -246,7 +246,9 @@ bool Heightfield::encloses(const Vec3d& p) const {
         return low;
     };
     const std::uint32_t column = cell(p.x, columns_, [&](std::uint32_t i) { return facets_.points[i].x; }),
-                        row = cell(p.y, rows_, [&](std::uint32_t i) { return facets_.points[i * std::size_t{columns_}].y; });
+                        row = cell(p.y, rows_, [&](std::uint32_t i) {
+                            return facets_.points[i * std::size_t{columns_}].y;
+                        });
     const std::size_t first = 2 * (row * (std::size_t{columns_} - 1) + column);
     const ShapeTriangle& lower = facets_.triangles[first];
     const Vec3d &a = corner(lower, 0), &c = corner(lower, 2);

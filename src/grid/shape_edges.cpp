@@ -1,0 +1,230 @@
+// Tiles of the mesh that reach the box of the shape are moved into its frame. There their edges look for
+// triangles of the shape in a tree, and their faces for its edges.
+#include "grid/shape_edges.hpp"
+
+#include "base/boxes.hpp"
+#include "base/room.hpp"
+#include "base/rounding.hpp"
+#include "base/vectors.hpp"
+#include "exact/crossing.hpp"
+#include "exact/facet_normal.hpp"
+#include "shape/facets.hpp"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <tuple>
+
+namespace vox {
+
+namespace {
+
+// Where an edge, of the mesh or of the shape, passes through a triangle of the other.
+struct Crossed {
+    std::uint32_t edge[2];    // of the shape: its number and 0
+    std::uint32_t vertices[3]; // of the face, if it is the mesh's
+    std::uint32_t element;
+    double at; // from 0 to 1 along the edge
+    double face_weights[3];
+    bool is_through;
+    Vec3d from, to;      // of the edge
+    Vec3d corner, normal; // of the triangle, out of what it belongs to
+};
+
+class EdgeSearch {
+public:
+    EdgeSearch(const ShapePair& of, const SurfaceFeatures& features, Array<ShapeContact>& to)
+        : pair_(of), mesh_(of.scene.bodies[of.body]), facets_(*of.shape.facets()), features_(features), out_(to),
+          of_mesh_(to.memory()), of_shape_(to.memory()) {}
+
+    void run() {
+        const std::size_t first = out_.size();
+        for (const SurfaceTile& tile : features_.tiles)
+            if (is_near(tile)) search(tile);
+        list_mesh_edges();
+        list_shape_edges();
+        const auto key = [](const ShapeContact& c) {
+            return std::tuple(c.vertices[0], c.vertices[1], c.vertices[2], c.count, c.element);
+        };
+        std::sort(out_.begin() + static_cast<std::ptrdiff_t>(first), out_.end(),
+                  [&](const ShapeContact& a, const ShapeContact& b) { return key(a) < key(b); });
+    }
+
+private:
+    bool is_near(const SurfaceTile& tile) const {
+        const Box* const blocks = pair_.scene.boxes->blocks.data() + pair_.scene.of[pair_.body].first_block;
+        const std::span<const std::uint32_t> some =
+            std::span(features_.blocks).subspan(tile.first_block, tile.block_count);
+        return std::ranges::any_of(some, [&](std::uint32_t b) { return overlap(blocks[b], pair_.box); });
+    }
+
+    void search(const SurfaceTile& tile) {
+        std::array<Vec3d, SurfaceTile::most_vertices> at;
+        std::array<Box3f, SurfaceTile::most_vertices> box;
+        for (std::uint32_t v = 0; v < tile.vertex_count; ++v) {
+            at[v] = pair_.place.to_shape(mesh_.positions.exact(vertex(tile, v)));
+            box[v] = rounded_box(at[v]);
+        }
+        std::uint64_t exact_tests = 0;
+        for (std::uint32_t e = tile.first_edge; e < tile.first_edge + tile.edge_count; ++e) {
+            auto [u, v] = features_.edges[e];
+            if (vertex(tile, v) < vertex(tile, u)) std::swap(u, v);
+            Box3f around = box[u];
+            extend(around, box[v]);
+            facets_.triangle_tree.visit_accepted(
+                [&](const Box3f& other) { return overlap(around, other); },
+                [&](std::uint32_t t) {
+                    const ShapeTriangle& triangle = facets_.triangles[t];
+                    const Vec3d &a = facets_.corner(triangle, 0), &b = facets_.corner(triangle, 1),
+                                &c = facets_.corner(triangle, 2);
+                    const Crossing met = find_crossing(at[u], at[v], a, b, c, exact_tests);
+                    if (met.kind == CrossingKind::none) return;
+                    add(of_mesh_, {{vertex(tile, u), vertex(tile, v)}, {}, t, met.edge_weights[1], {},
+                                   met.kind == CrossingKind::through, at[u], at[v], a, triangle_normal(a, b, c)});
+                });
+        }
+        for (std::uint32_t f = tile.first_face; f < tile.first_face + tile.face_count; ++f) {
+            const std::array<std::uint8_t, 3> corners = outward(tile, f);
+            Box3f around = box[corners[0]];
+            for (const std::uint8_t c : corners) extend(around, box[c]);
+            const Vec3d &a = at[corners[0]], &b = at[corners[1]], &c = at[corners[2]];
+            facets_.edge_tree.visit_accepted(
+                [&](const Box3f& other) { return overlap(around, other); },
+                [&](std::uint32_t e) {
+                    const ShapeFacets::Edge& edge = facets_.edges[e];
+                    const Vec3d &from = facets_.points[edge.ends[0]], &to = facets_.points[edge.ends[1]];
+                    const Crossing met = find_crossing(from, to, a, b, c, exact_tests);
+                    if (met.kind == CrossingKind::none) return;
+                    Crossed crossed{{e, 0}, {}, edge.triangle, met.edge_weights[1], {},
+                                    met.kind == CrossingKind::through, from, to, a, triangle_normal(a, b, c)};
+                    for (std::size_t i = 0; i < 3; ++i) {
+                        crossed.vertices[i] = vertex(tile, corners[i]);
+                        crossed.face_weights[i] = met.face_weights[i];
+                    }
+                    add(of_shape_, crossed);
+                });
+        }
+    }
+
+    std::uint32_t vertex(const SurfaceTile& tile, std::uint32_t index) const noexcept {
+        return features_.vertices[tile.first_vertex + index];
+    }
+    // The corners of a face, the lowest vertex first and counter-clockwise as seen from outside.
+    std::array<std::uint8_t, 3> outward(const SurfaceTile& tile, std::uint32_t face) const {
+        std::array<std::uint8_t, 3> corners = features_.faces[face];
+        const auto lower = [&](std::uint8_t x, std::uint8_t y) { return vertex(tile, x) < vertex(tile, y); };
+        std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end(), lower), corners.end());
+        const std::uint32_t apex = mesh_.tets[features_.tets[face]].v[features_.facets[face]];
+        const auto at = [&](std::uint32_t v) { return mesh_.positions.exact(v); };
+        std::uint64_t exact_tests = 0;
+        if (orientation(at(vertex(tile, corners[0])), at(vertex(tile, corners[1])), at(vertex(tile, corners[2])),
+                        at(apex), exact_tests) > 0)
+            std::swap(corners[1], corners[2]);
+        return corners;
+    }
+    static void add(Array<Crossed>& to, const Crossed& crossed) {
+        reserve_growing(to, to.size() + 1);
+        to.push_back(crossed);
+    }
+
+    // Calls visit(crossed, before, after) for the crossings of each edge, with where the one before and the
+    // one after are.
+    template <class Visit>
+    static void for_each_crossing(Array<Crossed>& all, const Visit& visit) {
+        const auto key = [](const Crossed& c) { return std::tuple(c.edge[0], c.edge[1], c.at, c.element, c.vertices[0], c.vertices[1], c.vertices[2]); };
+        std::sort(all.begin(), all.end(),
+                  [&](const Crossed& a, const Crossed& b) { return key(a) < key(b); });
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const auto is_same_edge = [&](std::size_t j) {
+                return all[j].edge[0] == all[i].edge[0] && all[j].edge[1] == all[i].edge[1];
+            };
+            std::size_t before = i, after = i; // on edges, several triangles are met at once
+            while (before > 0 && is_same_edge(before) && all[before].at >= all[i].at) --before;
+            while (after + 1 < all.size() && is_same_edge(after) && all[after].at <= all[i].at) ++after;
+            visit(all[i], is_same_edge(before) && all[before].at < all[i].at ? all[before].at : 0,
+                  is_same_edge(after) && all[after].at > all[i].at ? all[after].at : 1);
+        }
+    }
+
+    // An edge of the mesh is as deep as the middle of its part inside the shape. A sheet has no inside: the
+    // shorter part of the edge has to leave.
+    void list_mesh_edges() {
+        for_each_crossing(of_mesh_, [&](const Crossed& c, double before, double after) {
+            ShapeContact contact = start(c, 2);
+            contact.vertices[0] = c.edge[0];
+            contact.vertices[1] = c.edge[1];
+            contact.weights[0] = 1 - c.at;
+            contact.weights[1] = c.at;
+            const Vec3d way = c.to - c.from;
+            if (c.is_through && pair_.shape.kind() == VOX_SHAPE_SHEET) {
+                const double at_from = dot(c.normal, c.from - c.corner), at_to = dot(c.normal, c.to - c.corner);
+                const bool from_leaves = std::abs(at_from) <= std::abs(at_to);
+                set(contact, VOX_DEPTH_PLANE, std::min(std::abs(at_from), std::abs(at_to)),
+                    (from_leaves ? at_from : at_to) < 0 ? c.normal : -1.0 * c.normal);
+            } else if (c.is_through) {
+                for (const double middle : {0.5 * (before + c.at), 0.5 * (c.at + after)}) {
+                    ShapePoint seen;
+                    if (pair_.shape.look(c.from + middle * way, 0, seen) && seen.is_inside &&
+                        -seen.distance > -contact.gap)
+                        set(contact, VOX_DEPTH_CLOSEST, -seen.distance, seen.normal);
+                }
+            }
+            push(contact);
+        });
+    }
+
+    // An edge of the shape, too, but in front of the plane of the face that it passes through: the face has to
+    // move that way.
+    void list_shape_edges() {
+        for_each_crossing(of_shape_, [&](const Crossed& c, double before, double after) {
+            ShapeContact contact = start(c, 3);
+            std::copy_n(c.vertices, 3, contact.vertices);
+            std::copy_n(c.face_weights, 3, contact.weights);
+            contact.normal[0] = contact.normal[1] = contact.normal[2] = 0;
+            const Vec3d way = c.to - c.from;
+            const double middle = dot(c.normal, way) > 0 ? 0.5 * (before + c.at) : 0.5 * (c.at + after);
+            const double depth = c.is_through ? -dot(c.normal, c.from + middle * way - c.corner) : 0;
+            set(contact, depth > 0 ? VOX_DEPTH_PLANE : VOX_DEPTH_TOUCHING, std::max(depth, 0.0),
+                -1.0 * c.normal);
+            push(contact);
+        });
+    }
+
+    // At first they only touch.
+    ShapeContact start(const Crossed& c, std::uint32_t count) const noexcept {
+        ShapeContact contact{};
+        contact.body_a = mesh_.mesh_id;
+        contact.body_b = pair_.shape_body.mesh_id;
+        contact.kind = VOX_CONSTRAINT_EDGE;
+        contact.count = count;
+        contact.element = c.element;
+        contact.time = 1;
+        set(contact, VOX_DEPTH_TOUCHING, 0, c.normal);
+        return contact;
+    }
+    void set(ShapeContact& contact, vox_depth_state state, double depth, const Vec3d& normal) const noexcept {
+        const Vec3d out = pair_.place.to_world(normal);
+        contact.state = depth > 0 ? state : VOX_DEPTH_TOUCHING;
+        contact.gap = -depth * pair_.place.scale();
+        contact.normal[0] = out.x, contact.normal[1] = out.y, contact.normal[2] = out.z;
+    }
+    void push(const ShapeContact& contact) {
+        reserve_growing(out_, out_.size() + 1);
+        out_.push_back(contact);
+    }
+
+    const ShapePair& pair_;
+    const Body& mesh_;
+    const ShapeFacets& facets_;
+    const SurfaceFeatures& features_;
+    Array<ShapeContact>& out_;
+    Array<Crossed> of_mesh_, of_shape_;
+};
+
+} // namespace
+
+void find_shape_edges(const ShapePair& pair, const SurfaceFeatures& features, Array<ShapeContact>& out) {
+    EdgeSearch(pair, features, out).run();
+}
+
+} // namespace vox
