@@ -60,17 +60,15 @@ private:
 
     void search(const SurfaceTile& tile) {
         std::array<Vec3d, SurfaceTile::most_vertices> at;
-        std::array<Box3f, SurfaceTile::most_vertices> box;
-        for (std::uint32_t v = 0; v < tile.vertex_count; ++v) {
+        for (std::uint32_t v = 0; v < tile.vertex_count; ++v)
             at[v] = pair_.place.to_shape(mesh_.positions.exact(vertex(tile, v)));
-            box[v] = rounded_box(at[v]);
-        }
         std::uint64_t exact_tests = 0;
         for (std::uint32_t e = tile.first_edge; e < tile.first_edge + tile.edge_count; ++e) {
             auto [u, v] = features_.edges[e];
             if (vertex(tile, v) < vertex(tile, u)) std::swap(u, v);
-            Box3f around = box[u];
-            extend(around, box[v]);
+            const Vec3d lo = min(at[u], at[v]), hi = max(at[u], at[v]);
+            if (!is_in_reach(lo, hi)) continue;
+            const Box3f around = box_around(lo, hi);
             facets_.triangle_tree.visit_accepted(
                 [&](const Box3f& other) { return overlap(around, other); },
                 [&](std::uint32_t t) {
@@ -84,9 +82,11 @@ private:
                 });
         }
         for (std::uint32_t f = tile.first_face; f < tile.first_face + tile.face_count; ++f) {
+            const auto& [u, v, w] = features_.faces[f];
+            const Vec3d lo = min(min(at[u], at[v]), at[w]), hi = max(max(at[u], at[v]), at[w]);
+            if (!is_in_reach(lo, hi)) continue;
+            const Box3f around = box_around(lo, hi);
             const std::array<std::uint8_t, 3> corners = outward(tile, f);
-            Box3f around = box[corners[0]];
-            for (const std::uint8_t c : corners) extend(around, box[c]);
             const Vec3d &a = at[corners[0]], &b = at[corners[1]], &c = at[corners[2]];
             facets_.edge_tree.visit_accepted(
                 [&](const Box3f& other) { return overlap(around, other); },
@@ -106,6 +106,14 @@ private:
         }
     }
 
+    bool is_in_reach(const Vec3d& lo, const Vec3d& hi) const noexcept {
+        const RigidShape::Bounds& all = pair_.shape.bounds();
+        return (lo.x <= all.max.x) & (lo.y <= all.max.y) & (lo.z <= all.max.z) & (hi.x >= all.min.x) &
+               (hi.y >= all.min.y) & (hi.z >= all.min.z);
+    }
+    static Box3f box_around(const Vec3d& lo, const Vec3d& hi) noexcept {
+        return {rounded_box(lo).min, rounded_box(hi).max};
+    }
     std::uint32_t vertex(const SurfaceTile& tile, std::uint32_t index) const noexcept {
         return features_.vertices[tile.first_vertex + index];
     }
