@@ -123,7 +123,7 @@ Constraints::Ends Constraints::list(const ConstraintSources& from) {
     Ends ends{};
     place_.assign(kinds * from.pairs.size(), 0);
     const std::size_t most = from.hits.size() + from.edges.size() + from.proximities.size() +
-                             from.impacts.size() + from.shapes.size();
+                             from.impacts.size() + from.shape_count;
     reserve_sparingly(listed_, most);
     if (listed_.size() < most) listed_.resize(most);
     reserve_growing(now_.pairs, from.pairs.size()); // which are the same for all constraints of a step
@@ -139,8 +139,14 @@ Constraints::Ends Constraints::list(const ConstraintSources& from) {
         *end++ = {static_cast<std::uint32_t>(pair), static_cast<std::uint32_t>(source)};
     };
     const auto add_shapes = [&](vox_constraint_kind kind) {
-        for (std::size_t i = 0; i < from.shapes.size(); ++i)
-            if (from.shapes[i].kind == kind) add(from.shapes[i].body_a, from.shapes[i].body_b, kind, i);
+        for (const ShapeRun& run : from.shapes) {
+            const std::size_t some = run.of_kind[kind], pair = some > 0 ? index(run.body_a, run.body_b) : 0;
+            if (some == 0 || pair >= from.pairs.size() || !from.chosen[pair]) continue;
+            place_[kinds * pair + kind] += static_cast<std::uint32_t>(some);
+            for (std::size_t i = 0; i < run.count(); ++i)
+                if (run.vertices.empty() || run.vertices[i].kind == kind)
+                    *end++ = {static_cast<std::uint32_t>(pair), static_cast<std::uint32_t>(run.first + i)};
+        }
     };
     if (from.penetrations) {
         const std::span<const Penetration> all = from.penetrations->all();
@@ -265,8 +271,7 @@ private:
 
 namespace {
 
-// Writes stencil, normal, gap, state, element and time of a constraint that is not INSIDE a mesh. Returns
-// body_a.
+// Writes stencil, normal, gap, state, element and time of a constraint that is not INSIDE. Returns body_a.
 struct Writer {
     const ConstraintSources& from;
 
@@ -323,37 +328,22 @@ struct Writer {
         c.time = impact.time;
         return impact.body_a;
     }
-
-    vox_body write_shape(std::uint32_t source, vox_constraint& c) const {
-        const ShapeContact& contact = from.shapes[source];
-        c.count_a = c.count = contact.count;
-        std::copy_n(contact.vertices, 3, c.vertices);
-        std::copy_n(contact.weights, 3, c.weights);
-        c.element_b = contact.element;
-        c.gap = contact.gap;
-        c.state = contact.state;
-        std::copy_n(contact.normal, 3, c.normal);
-        c.time = contact.time;
-        return contact.body_a;
-    }
 };
 
 } // namespace
 
-// The constraints of one pair and one kind, other than INSIDE a mesh.
+// The constraints of two meshes and one kind other than INSIDE.
 void Constraints::write_others(const ConstraintSources& from, const Run& run, Previous& previous) noexcept {
     const Writer writer{from};
     const auto& [lower, higher] = now_.pairs[run.pair];
     const Body* const bodies[2] = {&from.bodies[body_index(from.bodies, lower)],
                                    &from.bodies[body_index(from.bodies, higher)]};
-    const bool has_shape = bodies[0]->shape || bodies[1]->shape;
     for (std::size_t i = run.begin; i < run.end; ++i) {
         const std::uint32_t source = sources_[i];
         vox_constraint& c = now_.all[i];
         c = {};
         c.weights[0] = 1;
-        const vox_body id_a = has_shape                              ? writer.write_shape(source, c)
-                              : run.kind == VOX_CONSTRAINT_EDGE      ? writer.write_edge(source, c)
+        const vox_body id_a = run.kind == VOX_CONSTRAINT_EDGE        ? writer.write_edge(source, c)
                               : run.kind == VOX_CONSTRAINT_PROXIMITY ? writer.write_proximity(source, c)
                                                                      : writer.write_impact(source, c);
         const bool swapped = id_a != lower;
@@ -362,18 +352,59 @@ void Constraints::write_others(const ConstraintSources& from, const Run& run, Pr
         write_vector(c.normal, vector_of(c.normal));
         c.previous = previous.find(run.kind, key_of(c));
         double sum = 0;
-        Vec3d at{0, 0, 0};
         for (std::uint32_t v = 0; v < c.count; ++v) {
             const Vec3d x = (v < c.count_a ? a : b).positions.exact(c.vertices[v]);
             if (v == 0 && run.kind != VOX_CONSTRAINT_EDGE) write_vector(c.position, x);
-            if (has_shape) at = at + c.weights[v] * x;
             sum += c.weights[v] * dot(vector_of(c.normal), x);
         }
-        if (run.kind == VOX_CONSTRAINT_EDGE && has_shape)
-            write_vector(c.position, at);
-        else if (run.kind == VOX_CONSTRAINT_EDGE)
-            std::copy_n(from.edges[source].position, 3, c.position);
+        if (run.kind == VOX_CONSTRAINT_EDGE) std::copy_n(from.edges[source].position, 3, c.position);
         c.offset = c.gap - sum;
+    }
+}
+
+// The constraints of a mesh with a shape, of one kind.
+void Constraints::write_shapes(const ConstraintSources& from, const Run& run, Previous& previous) noexcept {
+    const auto of_source = [&](std::uint32_t source) {
+        return std::ranges::upper_bound(from.shapes, source, {}, &ShapeRun::first) - 1;
+    };
+    auto found = of_source(sources_[run.begin]);
+    const Body &a = from.bodies[body_index(from.bodies, found->body_a)],
+               &b = from.bodies[body_index(from.bodies, found->body_b)];
+    for (std::size_t i = run.begin; i < run.end; ++i) {
+        const std::uint32_t source = sources_[i];
+        while (source - found->first >= found->count()) ++found;
+        const std::size_t at = source - found->first;
+        vox_constraint& c = now_.all[i];
+        c = {};
+        write_pair(a, b, run.kind, run.pair, c);
+        Vec3d point{0, 0, 0};
+        if (found->edges.empty()) {
+            const ShapeVertex& contact = found->vertices[at];
+            c.count_a = c.count = 1;
+            c.vertices[0] = contact.vertex;
+            c.weights[0] = 1;
+            c.element_b = contact.element;
+            c.state = contact.state;
+            c.gap = contact.gap;
+            c.time = contact.time;
+            write_vector(c.normal, vector_of(contact.normal));
+            point = a.positions.exact(contact.vertex);
+        } else {
+            const ShapeEdge& contact = found->edges[at];
+            c.count_a = c.count = contact.count;
+            std::copy_n(contact.vertices, 3, c.vertices);
+            std::copy_n(contact.weights, 3, c.weights);
+            c.element_b = contact.element;
+            c.state = contact.state;
+            c.gap = contact.gap;
+            c.time = 1;
+            write_vector(c.normal, vector_of(contact.normal));
+            for (std::uint32_t v = 0; v < c.count; ++v)
+                point = point + c.weights[v] * a.positions.exact(c.vertices[v]);
+        }
+        write_vector(c.position, point);
+        c.offset = c.gap - dot(vector_of(c.normal), point);
+        c.previous = previous.find(run.kind, key_of(c));
     }
 }
 
@@ -547,7 +578,9 @@ void Constraints::write(const ConstraintSources& from, std::size_t begin, std::s
                       std::min<std::size_t>(end, first[bucket + 1])};
         begin = run.end;
         previous.begin(now_.pairs[run.pair]);
-        if (run.kind != VOX_CONSTRAINT_INSIDE || has_shape(from, now_.pairs[run.pair])) {
+        if (has_shape(from, now_.pairs[run.pair])) {
+            write_shapes(from, run, previous);
+        } else if (run.kind != VOX_CONSTRAINT_INSIDE) {
             write_others(from, run, previous);
         } else if (!carry_inside(from, run, previous)) {
             if (inside.end != run.begin) {

@@ -39,7 +39,8 @@ struct ConstraintSources {
     std::span<const Proximity> proximities;
     std::span<const SurfaceMeeting> meetings;
     std::span<const Impact> impacts;
-    std::span<const ShapeContact> shapes; // sorted by body_a, body_b, vertex
+    std::span<const ShapeRun> shapes; // sorted by body_a, body_b
+    std::size_t shape_count;          // contacts of these
 };
 
 class Constraints {
@@ -99,6 +100,7 @@ private:
     void write(const ConstraintSources& sources, std::size_t begin, std::size_t end) noexcept;
     bool carry_inside(const ConstraintSources& sources, const Run& run, const Previous& previous) noexcept;
     void write_inside(const ConstraintSources& sources, const Run& run, Previous& previous) noexcept;
+    void write_shapes(const ConstraintSources& sources, const Run& run, Previous& previous) noexcept;
     void write_others(const ConstraintSources& sources, const Run& run, Previous& previous) noexcept;
 
     List now_, last_; // of this step, and of the one before

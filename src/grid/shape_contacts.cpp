@@ -91,7 +91,6 @@ void ShapeContacts::surround_previous(const StepScene& scene) {
 
 void ShapeContacts::list_tasks(const StepScene& scene, KeptFeatures& kept) {
     tasks_.clear();
-    const auto place = [](const ShapeContact& contact) { return std::tuple(contact.body_a, contact.body_b); };
     std::size_t carried = 0, first_moving = 0;
     for (std::uint32_t a = 0; a < scene.bodies.size() && !placed_.empty(); ++a) {
         const Body& body = scene.bodies[a];
@@ -103,22 +102,25 @@ void ShapeContacts::list_tasks(const StepScene& scene, KeptFeatures& kept) {
             if (!collide(body, shape)) continue;
             reserve_growing(tasks_, tasks_.size() + groups / task_groups + 2);
             if (!changed_ && !scene.of[a].moved && !has_previous(scene, a) && !placed_[p].moves) {
-                const std::tuple sought(body.mesh_id, shape.mesh_id);
-                const auto same =
-                    std::ranges::equal_range(std::span(all_).subspan(carried), sought, {}, place);
-                const auto first = static_cast<std::size_t>(same.begin() - std::span(all_).begin());
-                carried = first + same.size();
-                if (!same.empty()) tasks_.push_back({a, p, first, carried, Does::carry, 0, 0, 0, 0});
+                const auto is_before = [&](const ShapeRun& run) {
+                    return std::tie(run.body_a, run.body_b) < std::tie(body.mesh_id, shape.mesh_id);
+                };
+                while (carried < runs_.size() && is_before(runs_[carried])) ++carried;
+                const std::size_t first = carried;
+                while (carried < runs_.size() && runs_[carried].body_a == body.mesh_id &&
+                       runs_[carried].body_b == shape.mesh_id)
+                    ++carried;
+                if (first != carried) tasks_.push_back({a, p, first, carried, Does::carry, 0, 0, 0, 0, 0, 0});
                 continue;
             }
             for (std::size_t first = 0; first < groups; first += task_groups)
-                tasks_.push_back(
-                    {a, p, first, std::min(first + task_groups, groups), Does::vertices, moving, 0, 0, 0});
+                tasks_.push_back({a, p, first, std::min(first + task_groups, groups), Does::vertices, moving,
+                                  0, 0, 0, 0, 0});
             if (!finds_edges_ || !shape.shape->facets() || scene.topologies[a]->triangles.empty() ||
                 !overlap(scene.boxes->bodies[a], box_of(scene, a, placed_[p])))
                 continue;
             (void)kept.of(scene, a); // which may move those of others
-            tasks_.push_back({a, p, 0, 0, Does::edges, 0, 0, 0, 0});
+            tasks_.push_back({a, p, 0, 0, Does::edges, 0, 0, 0, 0, 0, 0});
         }
     }
 }
@@ -139,7 +141,7 @@ Box ShapeContacts::box_of(const StepScene& scene, std::uint32_t body, const Plac
 // ---- one mesh and one shape -----------------------------------------------------------------------
 
 struct ShapeContacts::Search {
-    Search(const ShapeContacts& of, const StepScene& step, const Task& task, Array<ShapeContact>& to)
+    Search(const ShapeContacts& of, const StepScene& step, const Task& task, Array<ShapeVertex>& to)
         : scene(step), body(step.bodies[task.body]), of_body(step.of[task.body]),
           placed(of.placed_[task.placed]), shape(*placed.shape), out(to), margin(of.margin_),
           reach(margin / placed.now.scale()), slack(growth(step.boxes->bodies[task.body], 0)),
@@ -225,17 +227,7 @@ struct ShapeContacts::Search {
                                       : gap == 0                    ? VOX_DEPTH_TOUCHING
                                                                     : VOX_DEPTH_CLOSEST;
         reserve_growing(out, out.size() + 1);
-        out.push_back({body.mesh_id,
-                       scene.bodies[placed.body].mesh_id,
-                       kind,
-                       state,
-                       1,
-                       seen.element,
-                       {vertex, 0, 0},
-                       {1, 0, 0},
-                       gap,
-                       time,
-                       {normal.x, normal.y, normal.z}});
+        out.push_back({vertex, seen.element, gap, time, {normal.x, normal.y, normal.z}, kind, state});
     }
 
     const StepScene& scene;
@@ -243,7 +235,7 @@ struct ShapeContacts::Search {
     const fast::StepBody& of_body;
     const Placed& placed;
     const RigidShape& shape;
-    Array<ShapeContact>& out;
+    Array<ShapeVertex>& out;
     double margin, reach; // in the world and in the shape's frame
     float slack;          // what boxes of floats are off by
     Box box;              // around the shape, for boxes of the mesh
@@ -253,78 +245,102 @@ struct ShapeContacts::Search {
 
 // ---- all of them ----------------------------------------------------------------------------------
 
-void ShapeContacts::run(const StepScene& scene, KeptFeatures& kept, Task& task,
-                        Array<ShapeContact>& out) const {
-    task.begin = out.size();
+void ShapeContacts::run(const StepScene& scene, KeptFeatures& kept, Task& task, Worker& out) const {
+    task.begin_vertex = out.vertices.size();
+    task.begin_edge = out.edges.size();
     if (task.does == Does::vertices) {
-        Search search(*this, scene, task, out);
+        Search search(*this, scene, task, out.vertices);
         const Box& all = scene.boxes->bodies[task.body];
         if (search.moves || (overlap(all, search.box) && !search.is_beyond(search.around(all))))
             for (std::size_t g = task.first; g < task.last; ++g) search.search_group(g);
     } else if (task.does == Does::edges) {
         const Placed& placed = placed_[task.placed];
-        find_shape_edges({scene, task.body, scene.bodies[placed.body], *placed.shape, placed.now,
-                          box_of(scene, task.body, placed)},
-                         kept.of(scene, task.body), out);
+        find_shape_edges({scene, task.body, *placed.shape, placed.now, box_of(scene, task.body, placed)},
+                         kept.of(scene, task.body), out.edges);
+    } else {
+        for (const ShapeRun& from : std::span(runs_).subspan(task.first, task.last - task.first)) {
+            reserve_growing(out.vertices, out.vertices.size() + from.vertices.size());
+            out.vertices.insert(out.vertices.end(), from.vertices.begin(), from.vertices.end());
+            reserve_growing(out.edges, out.edges.size() + from.edges.size());
+            out.edges.insert(out.edges.end(), from.edges.begin(), from.edges.end());
+        }
     }
-    task.end = out.size();
+    task.end_vertex = out.vertices.size();
+    task.end_edge = out.edges.size();
 }
 
 void ShapeContacts::find(const StepScene& scene, KeptFeatures& kept) {
     place_shapes(scene);
     surround_previous(scene);
     list_tasks(scene, kept);
-    workers_.grow(scene.workers->count());
-    for (Worker& worker : workers_) worker.found.clear();
+    PerWorker<Worker>& workers = workers_[1 - now_];
+    workers.grow(scene.workers->count());
+    for (Worker& worker : workers) {
+        worker.vertices.clear();
+        worker.edges.clear();
+    }
     constexpr std::size_t least_tasks = 8;
     scene.workers->for_ranges(tasks_.size(), least_tasks,
                               [&](std::size_t begin, std::size_t end, std::uint32_t w) {
                                   for (Task& task : std::span(tasks_).subspan(begin, end - begin)) {
                                       task.worker = w;
-                                      run(scene, kept, task, workers_[w].found);
+                                      run(scene, kept, task, workers[w]);
                                   }
                               });
-    list_results();
-    check_contact_count(all_.size(), "contacts with shapes");
+    now_ = 1 - now_;
+    list_results(scene);
+    check_contact_count(count_, "contacts with shapes");
     changed_ = false;
 }
 
-void ShapeContacts::list_results() {
-    found_.clear();
-    std::size_t count = 0;
-    for (const Task& task : tasks_)
-        count += task.does == Does::carry ? task.last - task.first : task.end - task.begin;
-    reserve_sparingly(found_, count);
-    carried_ = 0;
-    for (const Task& task : tasks_) {
-        const ShapeContact* const from = task.does == Does::carry
-                                             ? all_.data() + task.first
-                                             : workers_[task.worker].found.data() + task.begin;
-        const std::size_t some = task.does == Does::carry ? task.last - task.first : task.end - task.begin;
-        found_.insert(found_.end(), from, from + some);
-        if (task.does == Does::carry) carried_ += some;
-    }
-    const bool all_carried = !changed_ && carried_ == found_.size() && carried_ == all_.size();
-    std::swap(all_, found_);
-    reserve_sparingly(found_, count);
-    for (Worker& worker : workers_) reserve_sparingly(worker.found, count); // one may find all
+void ShapeContacts::list_results(const StepScene& scene) {
+    const std::size_t last_count = count_;
+    std::size_t vertices = 0, edges = 0;
+    count_ = carried_ = 0;
+    runs_.clear();
     pairs_.clear();
-    for (const ShapeContact& contact : all_) {
-        const auto [a, b] = std::minmax(contact.body_a, contact.body_b);
-        if (pairs_.empty() || ids_of(pairs_.back()) != IdPair{a, b}) {
-            reserve_growing(pairs_, pairs_.size() + 1);
-            pairs_.push_back({a, b, 0, 0, VOX_PAIR_NEAR, 0, 0, 0});
+    reserve_growing(runs_, 2 * tasks_.size());
+    reserve_growing(pairs_, tasks_.size());
+    for (const Task& task : tasks_) {
+        const vox_body body_a = scene.bodies[task.body].mesh_id,
+                       body_b = scene.bodies[placed_[task.placed].body].mesh_id;
+        const Worker& from = workers_[now_][task.worker];
+        ShapeRun of_vertices{body_a, body_b, count_, {}, {}, {}};
+        of_vertices.vertices =
+            std::span(from.vertices).subspan(task.begin_vertex, task.end_vertex - task.begin_vertex);
+        for (const ShapeVertex& vertex : of_vertices.vertices) ++of_vertices.of_kind[vertex.kind];
+        ShapeRun of_edges{body_a, body_b, count_ + of_vertices.count(), {}, {}, {}};
+        of_edges.edges = std::span(from.edges).subspan(task.begin_edge, task.end_edge - task.begin_edge);
+        of_edges.of_kind[VOX_CONSTRAINT_EDGE] = of_edges.edges.size();
+        for (const ShapeRun& found : {of_vertices, of_edges}) {
+            if (found.count() == 0) continue;
+            count_ += found.count();
+            if (task.does == Does::carry) carried_ += found.count();
+            runs_.push_back(found);
+            const auto [a, b] = std::minmax(body_a, body_b);
+            if (pairs_.empty() || ids_of(pairs_.back()) != IdPair{a, b})
+                pairs_.push_back({a, b, 0, 0, VOX_PAIR_NEAR, 0, 0, 0});
+            if (found.of_kind[VOX_CONSTRAINT_PROXIMITY] != found.count())
+                pairs_.back().state = VOX_PAIR_BEGAN;
         }
-        if (contact.kind != VOX_CONSTRAINT_PROXIMITY) pairs_.back().state = VOX_PAIR_BEGAN;
+        vertices += of_vertices.count();
+        edges += of_edges.count();
     }
-    is_unchanged_ = all_carried && std::ranges::none_of(pairs_, [](const vox_pair& pair) {
+    for (PerWorker<Worker>& workers : workers_) // in a later step, one may find all
+        for (Worker& worker : workers) {
+            reserve_sparingly(worker.vertices, vertices);
+            reserve_sparingly(worker.edges, edges);
+        }
+    is_unchanged_ = !changed_ && carried_ == count_ && carried_ == last_count &&
+                    std::ranges::none_of(pairs_, [](const vox_pair& pair) {
                         return pair.state == VOX_PAIR_NEAR; // which Pairs::repeat() has none of
                     });
     std::ranges::sort(pairs_, {}, ids_of);
 }
 
 void ShapeContacts::add_to(ConstraintSources& sources, depth::SurfaceTrees&, Workers&) const noexcept {
-    sources.shapes = all_;
+    sources.shapes = runs_;
+    sources.shape_count = count_;
 }
 
 } // namespace vox

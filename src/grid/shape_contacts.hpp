@@ -25,13 +25,35 @@ class SurfaceTrees;
 }
 struct ConstraintSources;
 
+// A vertex has at most one with each shape.
+struct ShapeVertex {
+    std::uint32_t vertex;
+    std::uint32_t element;
+    double gap, time;
+    double normal[3];
+    vox_constraint_kind kind;
+    vox_depth_state state;
+};
+
+// Contacts of a mesh with a shape, in order: of vertices or of edges, the other span is empty.
+struct ShapeRun {
+    vox_body body_a, body_b;
+    std::size_t first; // of these, among all contacts with shapes
+    std::span<const ShapeVertex> vertices;
+    std::span<const ShapeEdge> edges;
+    std::array<std::size_t, 4> of_kind; // how many
+
+    std::size_t count() const noexcept { return vertices.size() + edges.size(); }
+};
+
 class ShapeContacts {
 public:
     static constexpr auto time = &Profile::shapes_ns;
 
     explicit ShapeContacts(std::pmr::memory_resource* memory)
-        : previous_(memory), placed_(memory), moving_groups_(memory), tasks_(memory), workers_(memory),
-          found_(memory), all_(memory), pairs_(memory) {}
+        : previous_(memory), placed_(memory), moving_groups_(memory),
+          tasks_(memory), workers_{PerWorker<Worker>(memory), PerWorker<Worker>(memory)}, runs_(memory),
+          pairs_(memory) {}
 
     void set_margin(double margin) noexcept {
         margin_ = margin;
@@ -48,7 +70,7 @@ public:
 
     void find(const StepScene& scene, KeptFeatures& kept);
     void count(Counters& counters) const noexcept {
-        counters.shape_contacts = all_.size();
+        counters.shape_contacts = count_;
         counters.carried_shape_contacts = carried_;
     }
     bool is_unchanged() const noexcept { return is_unchanged_; }
@@ -56,8 +78,9 @@ public:
     void add_to(ConstraintSources& sources, depth::SurfaceTrees&, Workers&) const noexcept;
 
     void clear() noexcept {
-        all_.clear();
+        runs_.clear();
         pairs_.clear();
+        count_ = 0;
         changed_ = true;
     }
     void forget(vox_body body) noexcept;
@@ -84,8 +107,8 @@ private:
         Vec3d centre;
         double radius;
     };
-    // Vertices of groups [first, last) of a mesh, in their order; its edges; or what is carried over from
-    // all_.
+    // Vertices of groups [first, last) of a mesh, in their order; its edges; or runs [first, last) that are
+    // carried over.
     enum class Does { vertices, edges, carry };
     struct Task {
         std::uint32_t body, placed;
@@ -93,21 +116,22 @@ private:
         Does does;
         std::size_t first_moving; // of the mesh, in moving_groups_
         std::uint32_t worker;
-        std::size_t begin, end; // in that worker's list
+        std::size_t begin_vertex, end_vertex, begin_edge, end_edge; // in that worker's lists
     };
     struct Worker {
-        explicit Worker(std::pmr::memory_resource* memory) : found(memory) {}
-        auto buffers() { return std::tie(found); }
+        explicit Worker(std::pmr::memory_resource* memory) : vertices(memory), edges(memory) {}
+        auto buffers() { return std::tie(vertices, edges); }
 
-        Array<ShapeContact> found;
+        Array<ShapeVertex> vertices;
+        Array<ShapeEdge> edges;
     };
     struct Search;
 
     void place_shapes(const StepScene& scene);
     void surround_previous(const StepScene& scene);
     void list_tasks(const StepScene& scene, KeptFeatures& kept);
-    void run(const StepScene& scene, KeptFeatures& kept, Task& task, Array<ShapeContact>& out) const;
-    void list_results();
+    void run(const StepScene& scene, KeptFeatures& kept, Task& task, Worker& out) const;
+    void list_results(const StepScene& scene);
     Box box_of(const StepScene& scene, std::uint32_t body, const Placed& placed) const noexcept;
     bool has_previous(const StepScene& scene, std::uint32_t body) const noexcept {
         return body < scene.previous.size() && scene.previous[body].data;
@@ -122,12 +146,13 @@ private:
     Array<Placed> placed_;
     Array<Sphere> moving_groups_; // of meshes with previous positions, one after another
     Array<Task> tasks_;
-    PerWorker<Worker> workers_;
-    Array<ShapeContact> found_;
+    std::array<PerWorker<Worker>, 2> workers_; // what they found in this step and in the one before
+    std::size_t now_ = 0;                      // of the two
 
-    // Results, sorted by (body_a, body_b), vertices before edges, each kind in order.
-    Array<ShapeContact> all_;
+    // Results.
+    Array<ShapeRun> runs_; // sorted by (body_a, body_b), vertices before edges
     Array<vox_pair> pairs_;
+    std::size_t count_ = 0;
     std::size_t carried_ = 0;
     bool is_unchanged_ = false;
 };

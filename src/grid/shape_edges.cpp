@@ -21,21 +21,21 @@ namespace {
 
 // Where an edge, of the mesh or of the shape, passes through a triangle of the other.
 struct Crossed {
-    std::uint32_t edge[2];    // of the shape: its number and 0
+    std::uint32_t edge[2];     // of the shape: its number and 0
     std::uint32_t vertices[3]; // of the face, if it is the mesh's
     std::uint32_t element;
     double at; // from 0 to 1 along the edge
     double face_weights[3];
     bool is_through;
-    Vec3d from, to;      // of the edge
+    Vec3d from, to;       // of the edge
     Vec3d corner, normal; // of the triangle, out of what it belongs to
 };
 
 class EdgeSearch {
 public:
-    EdgeSearch(const ShapePair& of, const SurfaceFeatures& features, Array<ShapeContact>& to)
-        : pair_(of), mesh_(of.scene.bodies[of.body]), facets_(*of.shape.facets()), features_(features), out_(to),
-          of_mesh_(to.memory()), of_shape_(to.memory()) {}
+    EdgeSearch(const ShapePair& of, const SurfaceFeatures& features, Array<ShapeEdge>& to)
+        : pair_(of), mesh_(of.scene.bodies[of.body]), facets_(*of.shape.facets()), features_(features),
+          out_(to), of_mesh_(to.memory()), of_shape_(to.memory()) {}
 
     void run() {
         const std::size_t first = out_.size();
@@ -43,11 +43,11 @@ public:
             if (is_near(tile)) search(tile);
         list_mesh_edges();
         list_shape_edges();
-        const auto key = [](const ShapeContact& c) {
+        const auto key = [](const ShapeEdge& c) {
             return std::tuple(c.vertices[0], c.vertices[1], c.vertices[2], c.count, c.element);
         };
         std::sort(out_.begin() + static_cast<std::ptrdiff_t>(first), out_.end(),
-                  [&](const ShapeContact& a, const ShapeContact& b) { return key(a) < key(b); });
+                  [&](const ShapeEdge& a, const ShapeEdge& b) { return key(a) < key(b); });
     }
 
 private:
@@ -69,17 +69,26 @@ private:
             const Vec3d lo = min(at[u], at[v]), hi = max(at[u], at[v]);
             if (!is_in_reach(lo, hi)) continue;
             const Box3f around = box_around(lo, hi);
-            facets_.triangle_tree.visit_accepted(
-                [&](const Box3f& other) { return overlap(around, other); },
-                [&](std::uint32_t t) {
-                    const ShapeTriangle& triangle = facets_.triangles[t];
-                    const Vec3d &a = facets_.corner(triangle, 0), &b = facets_.corner(triangle, 1),
-                                &c = facets_.corner(triangle, 2);
-                    const Crossing met = find_crossing(at[u], at[v], a, b, c, exact_tests);
-                    if (met.kind == CrossingKind::none) return;
-                    add(of_mesh_, {{vertex(tile, u), vertex(tile, v)}, {}, t, met.edge_weights[1], {},
-                                   met.kind == CrossingKind::through, at[u], at[v], a, triangle_normal(a, b, c)});
-                });
+            facets_.triangle_tree.visit_accepted([&](const Box3f& other) { return overlap(around, other); },
+                                                 [&](std::uint32_t t) {
+                                                     const ShapeTriangle& triangle = facets_.triangles[t];
+                                                     const Vec3d &a = facets_.corner(triangle, 0),
+                                                                 &b = facets_.corner(triangle, 1),
+                                                                 &c = facets_.corner(triangle, 2);
+                                                     const Crossing met =
+                                                         find_crossing(at[u], at[v], a, b, c, exact_tests);
+                                                     if (met.kind == CrossingKind::none) return;
+                                                     add(of_mesh_, {{vertex(tile, u), vertex(tile, v)},
+                                                                    {},
+                                                                    t,
+                                                                    met.edge_weights[1],
+                                                                    {},
+                                                                    met.kind == CrossingKind::through,
+                                                                    at[u],
+                                                                    at[v],
+                                                                    a,
+                                                                    triangle_normal(a, b, c)});
+                                                 });
         }
         for (std::uint32_t f = tile.first_face; f < tile.first_face + tile.face_count; ++f) {
             const auto& [u, v, w] = features_.faces[f];
@@ -88,21 +97,30 @@ private:
             const Box3f around = box_around(lo, hi);
             const std::array<std::uint8_t, 3> corners = outward(tile, f);
             const Vec3d &a = at[corners[0]], &b = at[corners[1]], &c = at[corners[2]];
-            facets_.edge_tree.visit_accepted(
-                [&](const Box3f& other) { return overlap(around, other); },
-                [&](std::uint32_t e) {
-                    const ShapeFacets::Edge& edge = facets_.edges[e];
-                    const Vec3d &from = facets_.points[edge.ends[0]], &to = facets_.points[edge.ends[1]];
-                    const Crossing met = find_crossing(from, to, a, b, c, exact_tests);
-                    if (met.kind == CrossingKind::none) return;
-                    Crossed crossed{{e, 0}, {}, edge.triangle, met.edge_weights[1], {},
-                                    met.kind == CrossingKind::through, from, to, a, triangle_normal(a, b, c)};
-                    for (std::size_t i = 0; i < 3; ++i) {
-                        crossed.vertices[i] = vertex(tile, corners[i]);
-                        crossed.face_weights[i] = met.face_weights[i];
-                    }
-                    add(of_shape_, crossed);
-                });
+            facets_.edge_tree.visit_accepted([&](const Box3f& other) { return overlap(around, other); },
+                                             [&](std::uint32_t e) {
+                                                 const ShapeFacets::Edge& edge = facets_.edges[e];
+                                                 const Vec3d &from = facets_.points[edge.ends[0]],
+                                                             &to = facets_.points[edge.ends[1]];
+                                                 const Crossing met =
+                                                     find_crossing(from, to, a, b, c, exact_tests);
+                                                 if (met.kind == CrossingKind::none) return;
+                                                 Crossed crossed{{e, 0},
+                                                                 {},
+                                                                 edge.triangle,
+                                                                 met.edge_weights[1],
+                                                                 {},
+                                                                 met.kind == CrossingKind::through,
+                                                                 from,
+                                                                 to,
+                                                                 a,
+                                                                 triangle_normal(a, b, c)};
+                                                 for (std::size_t i = 0; i < 3; ++i) {
+                                                     crossed.vertices[i] = vertex(tile, corners[i]);
+                                                     crossed.face_weights[i] = met.face_weights[i];
+                                                 }
+                                                 add(of_shape_, crossed);
+                                             });
         }
     }
 
@@ -125,8 +143,8 @@ private:
         const std::uint32_t apex = mesh_.tets[features_.tets[face]].v[features_.facets[face]];
         const auto at = [&](std::uint32_t v) { return mesh_.positions.exact(v); };
         std::uint64_t exact_tests = 0;
-        if (orientation(at(vertex(tile, corners[0])), at(vertex(tile, corners[1])), at(vertex(tile, corners[2])),
-                        at(apex), exact_tests) > 0)
+        if (orientation(at(vertex(tile, corners[0])), at(vertex(tile, corners[1])),
+                        at(vertex(tile, corners[2])), at(apex), exact_tests) > 0)
             std::swap(corners[1], corners[2]);
         return corners;
     }
@@ -139,7 +157,10 @@ private:
     // one after are.
     template <class Visit>
     static void for_each_crossing(Array<Crossed>& all, const Visit& visit) {
-        const auto key = [](const Crossed& c) { return std::tuple(c.edge[0], c.edge[1], c.at, c.element, c.vertices[0], c.vertices[1], c.vertices[2]); };
+        const auto key = [](const Crossed& c) {
+            return std::tuple(c.edge[0], c.edge[1], c.at, c.element, c.vertices[0], c.vertices[1],
+                              c.vertices[2]);
+        };
         std::sort(all.begin(), all.end(),
                   [&](const Crossed& a, const Crossed& b) { return key(a) < key(b); });
         for (std::size_t i = 0; i < all.size(); ++i) {
@@ -158,14 +179,15 @@ private:
     // shorter part of the edge has to leave.
     void list_mesh_edges() {
         for_each_crossing(of_mesh_, [&](const Crossed& c, double before, double after) {
-            ShapeContact contact = start(c, 2);
+            ShapeEdge contact = start(c, 2);
             contact.vertices[0] = c.edge[0];
             contact.vertices[1] = c.edge[1];
             contact.weights[0] = 1 - c.at;
             contact.weights[1] = c.at;
             const Vec3d way = c.to - c.from;
             if (c.is_through && pair_.shape.kind() == VOX_SHAPE_SHEET) {
-                const double at_from = dot(c.normal, c.from - c.corner), at_to = dot(c.normal, c.to - c.corner);
+                const double at_from = dot(c.normal, c.from - c.corner),
+                             at_to = dot(c.normal, c.to - c.corner);
                 const bool from_leaves = std::abs(at_from) <= std::abs(at_to);
                 set(contact, VOX_DEPTH_PLANE, std::min(std::abs(at_from), std::abs(at_to)),
                     (from_leaves ? at_from : at_to) < 0 ? c.normal : -1.0 * c.normal);
@@ -181,11 +203,11 @@ private:
         });
     }
 
-    // An edge of the shape, too, but in front of the plane of the face that it passes through: the face has to
-    // move that way.
+    // An edge of the shape, too, but in front of the plane of the face that it passes through: the face has
+    // to move that way.
     void list_shape_edges() {
         for_each_crossing(of_shape_, [&](const Crossed& c, double before, double after) {
-            ShapeContact contact = start(c, 3);
+            ShapeEdge contact = start(c, 3);
             std::copy_n(c.vertices, 3, contact.vertices);
             std::copy_n(c.face_weights, 3, contact.weights);
             contact.normal[0] = contact.normal[1] = contact.normal[2] = 0;
@@ -199,24 +221,20 @@ private:
     }
 
     // At first they only touch.
-    ShapeContact start(const Crossed& c, std::uint32_t count) const noexcept {
-        ShapeContact contact{};
-        contact.body_a = mesh_.mesh_id;
-        contact.body_b = pair_.shape_body.mesh_id;
-        contact.kind = VOX_CONSTRAINT_EDGE;
+    ShapeEdge start(const Crossed& c, std::uint32_t count) const noexcept {
+        ShapeEdge contact{};
         contact.count = count;
         contact.element = c.element;
-        contact.time = 1;
         set(contact, VOX_DEPTH_TOUCHING, 0, c.normal);
         return contact;
     }
-    void set(ShapeContact& contact, vox_depth_state state, double depth, const Vec3d& normal) const noexcept {
+    void set(ShapeEdge& contact, vox_depth_state state, double depth, const Vec3d& normal) const noexcept {
         const Vec3d out = pair_.place.to_world(normal);
         contact.state = depth > 0 ? state : VOX_DEPTH_TOUCHING;
         contact.gap = -depth * pair_.place.scale();
         contact.normal[0] = out.x, contact.normal[1] = out.y, contact.normal[2] = out.z;
     }
-    void push(const ShapeContact& contact) {
+    void push(const ShapeEdge& contact) {
         reserve_growing(out_, out_.size() + 1);
         out_.push_back(contact);
     }
@@ -225,13 +243,13 @@ private:
     const Body& mesh_;
     const ShapeFacets& facets_;
     const SurfaceFeatures& features_;
-    Array<ShapeContact>& out_;
+    Array<ShapeEdge>& out_;
     Array<Crossed> of_mesh_, of_shape_;
 };
 
 } // namespace
 
-void find_shape_edges(const ShapePair& pair, const SurfaceFeatures& features, Array<ShapeContact>& out) {
+void find_shape_edges(const ShapePair& pair, const SurfaceFeatures& features, Array<ShapeEdge>& out) {
     EdgeSearch(pair, features, out).run();
 }
 

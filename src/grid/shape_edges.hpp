@@ -11,17 +11,14 @@
 
 namespace vox {
 
-// A contact of a mesh with a shape: of a vertex, an edge or a face.
-struct ShapeContact {
-    vox_body body_a;
-    vox_body body_b; // the shape
-    vox_constraint_kind kind;
-    vox_depth_state state;
+// A contact of an edge of a mesh with a triangle of a shape, or of a face with an edge.
+struct ShapeEdge {
     std::uint32_t count; // vertices
     std::uint32_t element;
     std::uint32_t vertices[3];
+    vox_depth_state state;
     double weights[3];
-    double gap, time;
+    double gap;
     double normal[3];
 };
 
@@ -29,7 +26,6 @@ struct ShapeContact {
 struct ShapePair {
     const StepScene& scene;
     std::uint32_t body;
-    const Body& shape_body;
     const RigidShape& shape;
     const ShapePlace& place;
     Box box; // of floats around the shape, less scene.origin
@@ -37,6 +33,6 @@ struct ShapePair {
 
 // Appends the contacts of edges, sorted by vertices and then by element; `features` are those of the mesh.
 // Decided exactly for the places of vertices in the shape's frame.
-void find_shape_edges(const ShapePair& pair, const SurfaceFeatures& features, Array<ShapeContact>& out);
+void find_shape_edges(const ShapePair& pair, const SurfaceFeatures& features, Array<ShapeEdge>& out);
 
 } // namespace vox
