@@ -178,26 +178,30 @@ struct ShapeContacts::Search {
                                                        of_body.tiles->block_first.size() - 1);
         for (std::size_t block = first; block < last; ++block) {
             const Box& around_block = scene.boxes->blocks[of_body.first_block + block];
+            const std::uint32_t begin = of_body.tiles->block_first[block],
+                                end = of_body.tiles->block_first[block + 1];
             if (moves || (overlap(around_block, box) && !is_beyond(around(around_block))))
-                search_block(of_body.tiles->block_first[block], of_body.tiles->block_first[block + 1]);
+                search_block(begin, end);
         }
     }
 
     void search_block(std::uint32_t first, std::uint32_t last) {
-        std::array<Vec3d, RigidShape::most_points> at;
+        std::array<Vec3d, RigidShape::most_points> at, from;
         std::array<std::uint32_t, RigidShape::most_points> vertex;
         std::array<ShapePoint, RigidShape::most_points> seen;
         std::size_t count = 0;
         for (std::uint32_t v = first; v < last; ++v) {
             if (has_bit(body.removed_vertices, v)) continue;
             vertex[count] = v;
+            if (moves) from[count] = before(v);
             at[count++] = placed.now.to_shape(body.positions.exact(v));
         }
+        if (moves && all_stay_beyond(std::span(from).first(count), std::span(at).first(count))) return;
         const std::uint32_t found = shape.look(std::span(at).first(count), reach, seen.data());
         for (std::size_t i = 0; i < count; ++i) {
             const bool is_near = (found >> i & 1) != 0, is_inside = is_near && seen[i].is_inside;
             ShapePoint met;
-            const double met_at = moves ? meeting(vertex[i], at[i], met) : no_shape_meeting;
+            const double met_at = moves ? meeting(from[i], at[i], met) : no_shape_meeting;
             if (is_inside)
                 add(vertex[i], VOX_CONSTRAINT_INSIDE, seen[i], met_at <= 1 ? met_at : 1);
             else if (met_at <= 1 && met.distance < 0)
@@ -207,12 +211,25 @@ struct ShapeContacts::Search {
         }
     }
 
-    // When a vertex that is at `to` now met the shape on its way, and how far it is behind the plane there.
-    double meeting(std::uint32_t vertex, const Vec3d& to, ShapePoint& met) const {
-        const Vec3d from = placed.before.to_shape(
-            (has_previous ? scene.previous[static_cast<std::size_t>(&body - scene.bodies.data())]
-                          : body.positions)
-                .exact(vertex));
+    // In the shape's frame.
+    Vec3d before(std::uint32_t vertex) const noexcept {
+        const auto index = static_cast<std::size_t>(&body - scene.bodies.data());
+        const Positions& positions = has_previous ? scene.previous[index] : body.positions;
+        return placed.before.to_shape(positions.exact(vertex));
+    }
+    bool all_stay_beyond(std::span<const Vec3d> from, std::span<const Vec3d> to) const {
+        if (from.empty()) return true;
+        Vec3d lo = from[0], hi = lo;
+        for (const std::span<const Vec3d> ends : {from, to})
+            for (const Vec3d& p : ends) {
+                lo = min(lo, p);
+                hi = max(hi, p);
+            }
+        const Vec3d half = 0.5 * (hi - lo);
+        return shape.is_beyond(lo + half, length(half) * (1 + 0x1p-40), reach);
+    }
+    // When a vertex met the shape on its way, and how far it is behind the plane there.
+    double meeting(const Vec3d& from, const Vec3d& to, ShapePoint& met) const {
         ShapePoint start;
         if (shape.look(from, 0, start) && start.is_inside) return no_shape_meeting;
         const double time = shape.meeting(from, to, met);
@@ -222,7 +239,10 @@ struct ShapeContacts::Search {
 
     void add(std::uint32_t vertex, vox_constraint_kind kind, const ShapePoint& seen, double time) {
         const double gap = seen.distance * placed.now.scale();
-        const Vec3d normal = placed.now.to_world(seen.normal);
+        if (!(seen.normal.x == local.x && seen.normal.y == local.y && seen.normal.z == local.z)) {
+            local = seen.normal;
+            normal = placed.now.to_world(local);
+        }
         const vox_depth_state state = kind == VOX_CONSTRAINT_IMPACT ? VOX_DEPTH_PLANE
                                       : gap == 0                    ? VOX_DEPTH_TOUCHING
                                                                     : VOX_DEPTH_CLOSEST;
@@ -241,6 +261,7 @@ struct ShapeContacts::Search {
     Box box;              // around the shape, for boxes of the mesh
     bool has_previous, moves;
     const Sphere* moving = nullptr;
+    Vec3d local{0, 0, 0}, normal{0, 0, 0}; // of the last contact, in the shape's frame and in the world
 };
 
 // ---- all of them ----------------------------------------------------------------------------------

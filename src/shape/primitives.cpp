@@ -36,7 +36,7 @@ double sign_of(double x) noexcept { return x < 0 ? -1 : 1; }
 // ---- half-space -----------------------------------------------------------------------------------
 
 HalfSpace::HalfSpace() noexcept
-    : RigidShape(VOX_SHAPE_HALF_SPACE, {{-unlimited, -unlimited, -unlimited}, {unlimited, unlimited, 0}}) {}
+    : PointByPoint(VOX_SHAPE_HALF_SPACE, {{-unlimited, -unlimited, -unlimited}, {unlimited, unlimited, 0}}) {}
 
 bool HalfSpace::look(const Vec3d& p, double reach, ShapePoint& out) const {
     out.normal = {0, 0, 1};
@@ -46,7 +46,7 @@ bool HalfSpace::look(const Vec3d& p, double reach, ShapePoint& out) const {
 // ---- sphere and capsule ---------------------------------------------------------------------------
 
 Capsule::Capsule(vox_shape_kind kind, double radius, double half_length) noexcept
-    : RigidShape(kind, {{-radius, -radius, -half_length - radius}, {radius, radius, half_length + radius}}),
+    : PointByPoint(kind, {{-radius, -radius, -half_length - radius}, {radius, radius, half_length + radius}}),
       radius_(radius), half_length_(half_length) {}
 
 bool Capsule::look(const Vec3d& p, double reach, ShapePoint& out) const {
@@ -60,7 +60,7 @@ bool Capsule::look(const Vec3d& p, double reach, ShapePoint& out) const {
 // ---- cylinder and box -----------------------------------------------------------------------------
 
 Cylinder::Cylinder(double radius, double half_length) noexcept
-    : RigidShape(VOX_SHAPE_CYLINDER, {{-radius, -radius, -half_length}, {radius, radius, half_length}}),
+    : PointByPoint(VOX_SHAPE_CYLINDER, {{-radius, -radius, -half_length}, {radius, radius, half_length}}),
       radius_(radius), half_length_(half_length) {}
 
 bool Cylinder::look(const Vec3d& p, double reach, ShapePoint& out) const {
@@ -102,7 +102,7 @@ ShapeFacets box_facets(const Vec3d& half, std::pmr::memory_resource* memory) {
 } // namespace
 
 BoxShape::BoxShape(const Vec3d& half_size, std::pmr::memory_resource* memory)
-    : RigidShape(VOX_SHAPE_BOX, {-1.0 * half_size, half_size}), half_size_(half_size),
+    : PointByPoint(VOX_SHAPE_BOX, {-1.0 * half_size, half_size}), half_size_(half_size),
       facets_(box_facets(half_size, memory)) {}
 
 bool BoxShape::look(const Vec3d& p, double reach, ShapePoint& out) const {

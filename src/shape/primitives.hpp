@@ -9,18 +9,35 @@
 
 namespace vox {
 
+// Looks at several points without a virtual call for each.
+template <class Self>
+class PointByPoint : public RigidShape {
+public:
+    std::uint32_t look(std::span<const Vec3d> points, double reach, ShapePoint* out) const final {
+        std::uint32_t found = 0;
+        for (std::size_t i = 0; i < points.size(); ++i)
+            found |= std::uint32_t{static_cast<const Self*>(this)->Self::look(points[i], reach, out[i])} << i;
+        return found;
+    }
+
+protected:
+    using RigidShape::RigidShape;
+};
+
 // z <= 0. The distance is exact.
-class HalfSpace final : public RigidShape {
+class HalfSpace final : public PointByPoint<HalfSpace> {
 public:
     HalfSpace() noexcept;
+    using PointByPoint::look;
     bool look(const Vec3d& p, double reach, ShapePoint& out) const override;
 };
 
 // The points within `radius` of the segment from (0, 0, -half_length) to (0, 0, half_length); of a sphere, of
 // the origin.
-class Capsule final : public RigidShape {
+class Capsule final : public PointByPoint<Capsule> {
 public:
     Capsule(vox_shape_kind kind, double radius, double half_length) noexcept;
+    using PointByPoint::look;
     bool look(const Vec3d& p, double reach, ShapePoint& out) const override;
 
 private:
@@ -28,18 +45,20 @@ private:
 };
 
 // Around the z axis, from -half_length to half_length.
-class Cylinder final : public RigidShape {
+class Cylinder final : public PointByPoint<Cylinder> {
 public:
     Cylinder(double radius, double half_length) noexcept;
+    using PointByPoint::look;
     bool look(const Vec3d& p, double reach, ShapePoint& out) const override;
 
 private:
     double radius_, half_length_;
 };
 
-class BoxShape final : public RigidShape {
+class BoxShape final : public PointByPoint<BoxShape> {
 public:
     BoxShape(const Vec3d& half_size, std::pmr::memory_resource* memory);
+    using PointByPoint::look;
     bool look(const Vec3d& p, double reach, ShapePoint& out) const override;
     const ShapeFacets* facets() const noexcept override { return &facets_; }
 
