@@ -11,6 +11,7 @@ using namespace vox;
 vox_result vox_grid_save(const vox_grid* grid, void* bytes, uint64_t capacity, uint64_t* out_size) {
     return border(grid, "grid", [&] {
         require(out_size, "out_size");
+        Snapshot::check(*grid);
         const std::uint64_t size = Snapshot::save(*grid, nullptr);
         if (bytes) {
             if (capacity < size)

@@ -129,17 +129,19 @@ vox_body vox_grid::insert(const vox_mesh_desc& desc, const Body& view, const vox
 vox_body vox_grid::insert_shape(const vox_shape_desc& desc, const vox_filter& filter) {
     vox_mesh_desc empty = vox_default_mesh_desc();
     empty.user_data = desc.user_data;
-    const Body view = check_mesh(empty, "", NullPositions::allowed);
-    meshes_.check_room(view);
-    Mesh mesh(empty, view, filter, &memory_);
-    mesh.set_shape(make_shape(desc, &memory_));
-    fast::MeshState state(&memory_);
-    prepare(mesh, state);
-    surfaces_.find_shapes(true);
-    const vox_body id = meshes_.insert(std::move(mesh), std::move(state));
-    surfaces_.shapes()->change();
-    scene_changed();
+    std::shared_ptr<const RigidShape> shape = make_shape(desc, &memory_);
+    surfaces_.find_shapes(true); // the last that can fail, but for insert()
+    const vox_body id = insert(empty, check_mesh(empty, "", NullPositions::allowed), filter);
+    become_shape(id, std::move(shape));
     return id;
+}
+
+void vox_grid::become_shape(vox_body id, std::shared_ptr<const RigidShape> shape) {
+    const vox_body_info info = body(id).info();
+    check_matrix(info.transform, true);
+    surfaces_.find_shapes(true);
+    meshes_.become_shape(id, std::move(shape));
+    surfaces_.shapes()->change();
 }
 
 // What is allowed, but collides with less than one may think: each once, as a program may mean it.

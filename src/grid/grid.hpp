@@ -57,6 +57,8 @@ public:
     // `view` is what check_mesh() makes of `desc`, whose filter is not looked at; `filter` is checked.
     vox_body insert(const vox_mesh_desc& desc, const vox::Body& view, const vox_filter& filter);
     vox_body insert_shape(const vox_shape_desc& desc, const vox_filter& filter);
+    // Makes a shape of a mesh without vertices.
+    void become_shape(vox_body id, std::shared_ptr<const vox::RigidShape> shape);
     void remove(vox_body mesh);
     void mark_moved(vox_body mesh);
     void set_filter(vox_body mesh, const vox_filter& filter);

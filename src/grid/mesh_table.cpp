@@ -37,7 +37,6 @@ vox_body MeshTable::insert(Mesh&& mesh, fast::MeshState&& state) {
     MeshSlot& taken = slots_[slot];
     vertex_count_ += mesh.vertex_count();
     tet_count_ += mesh.tet_count();
-    shape_count_ += mesh.shape() != nullptr;
     taken.mesh = std::move(mesh);
     taken.state = std::move(state);
     taken.live = true;
@@ -53,6 +52,11 @@ void MeshTable::replace(vox_body id, Mesh&& mesh, fast::MeshState&& state) noexc
     slot.mesh = std::move(mesh);
     slot.state = std::move(state);
     slot.query_tets = nullptr;
+}
+
+void MeshTable::become_shape(vox_body id, std::shared_ptr<const RigidShape> shape) noexcept {
+    slots_[slot_of(id)].mesh.set_shape(std::move(shape));
+    ++shape_count_;
 }
 
 void MeshTable::remove(vox_body id) {

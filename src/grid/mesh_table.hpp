@@ -57,6 +57,7 @@ public:
     // After check_room(). Throws what the memory throws and leaves all unchanged then.
     vox_body insert(Mesh&& mesh, fast::MeshState&& state);
     void replace(vox_body id, Mesh&& mesh, fast::MeshState&& state) noexcept;
+    void become_shape(vox_body id, std::shared_ptr<const RigidShape> shape) noexcept;
     void remove(vox_body id); // throws as operator[]
     void clear() noexcept;
 

@@ -19,7 +19,7 @@ struct Loading {
     Array<vox_body> awaited; // meshes whose chunk has to come, ascending
     std::size_t next = 0;    // index in `awaited`
     Array<std::uint32_t> free_slots;
-    vox_body last_filtered = VOX_NULL_BODY, last_cut = VOX_NULL_BODY;
+    vox_body last_filtered = VOX_NULL_BODY, last_cut = VOX_NULL_BODY, last_shape = VOX_NULL_BODY;
 };
 
 // Calls what a program would call; an argument that it refuses makes the snapshot invalid.
@@ -36,6 +36,8 @@ void or_refuse(const SnapshotChunk& in, vox_body id, Function&& function) {
 
 class Snapshot {
 public:
+    // Throws Error(INVALID_STATE) for a grid that cannot be saved.
+    static void check(const vox_grid& grid);
     // Reads the grid's arrays and positions, allocates nothing. Returns the number of bytes written; null:
     // only counts them.
     static std::uint64_t save(const vox_grid& grid, std::byte* bytes) noexcept;
@@ -56,6 +58,8 @@ private:
     static void load_slots(SnapshotChunk& in, Loading& to);
     static void save_meshes(const vox_grid& grid, SnapshotWriter& out);
     static void load_mesh(SnapshotChunk& in, Loading& to);
+    static void save_shapes(const vox_grid& grid, SnapshotWriter& out);
+    static void load_shape(SnapshotChunk& in, Loading& to);
     static void save_cuts(const vox_grid& grid, SnapshotWriter& out);
     static void load_cuts(SnapshotChunk& in, Loading& to);
     static void save_filters(const vox_grid& grid, SnapshotWriter& out);
@@ -83,6 +87,7 @@ private:
     static constexpr Part parts[] = {{"GRID", false, true, save_settings, load_settings},
                                      {"SLOT", false, true, save_slots, load_slots},
                                      {"MESH", true, false, save_meshes, load_mesh},
+                                     {"SHAP", true, false, save_shapes, load_shape},
                                      {"CUTS", true, false, save_cuts, load_cuts},
                                      {"FILT", true, false, save_filters, load_filter},
                                      {"PAIR", false, true, save_exceptions, load_exceptions},

@@ -157,7 +157,7 @@ Mesh& Snapshot::next_mesh(SnapshotChunk& in, vox_grid& grid, vox_body& last) {
     if (!grid.is_valid(id)) in.refuse(format("body %" PRIu32 " is not in it", id));
     if (id <= last) in.refuse(format("body %" PRIu32 " comes after body %" PRIu32, id, last));
     last = id;
-    return grid.mesh(id);
+    return grid.body(id);
 }
 
 // ---- CUTS: which tets are off or removed, and which vertices are removed -------------------------

@@ -123,7 +123,7 @@ std::shared_ptr<const RigidShape> make_shape(const vox_shape_desc& desc, std::pm
     case VOX_SHAPE_BOX:
         return made<BoxShape>(memory, read_half_size(desc), memory);
     case VOX_SHAPE_HEIGHTFIELD:
-        return made<Heightfield>(memory, read_heights(desc, memory), desc.columns, desc.rows);
+        return made<Heightfield>(memory, read_heights(desc, memory), desc);
     case VOX_SHAPE_SOLID:
         return made<ClosedSurface>(memory, read_points(desc, memory), read_triangles(desc, memory));
     case VOX_SHAPE_SHEET:

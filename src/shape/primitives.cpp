@@ -29,6 +29,13 @@ Vec3d direction(const Vec3d& v, const Vec3d& otherwise) noexcept {
     return unit.x == 0 && unit.y == 0 && unit.z == 0 ? otherwise : unit;
 }
 
+// With no numbers yet.
+vox_shape_desc desc_of(vox_shape_kind kind) noexcept {
+    vox_shape_desc desc = vox_default_shape_desc();
+    desc.kind = kind;
+    return desc;
+}
+
 double sign_of(double x) noexcept { return x < 0 ? -1 : 1; }
 
 } // namespace
@@ -43,6 +50,8 @@ bool HalfSpace::look(const Vec3d& p, double reach, ShapePoint& out) const {
     return decide(p.z <= 0, p.z, reach, out);
 }
 
+vox_shape_desc HalfSpace::desc() const noexcept { return desc_of(kind()); }
+
 // ---- sphere and capsule ---------------------------------------------------------------------------
 
 Capsule::Capsule(vox_shape_kind kind, double radius, double half_length) noexcept
@@ -55,6 +64,13 @@ bool Capsule::look(const Vec3d& p, double reach, ShapePoint& out) const {
     if (far > reach) return false;
     out.normal = direction(way, half_length_ > 0 ? Vec3d{1, 0, 0} : Vec3d{0, 0, 1});
     return decide(side_of_sphere(p, centre, radius_) <= 0, distance_to_sphere(way, radius_), reach, out);
+}
+
+vox_shape_desc Capsule::desc() const noexcept {
+    vox_shape_desc desc = desc_of(kind());
+    desc.radius = radius_;
+    desc.half_length = half_length_;
+    return desc;
 }
 
 // ---- cylinder and box -----------------------------------------------------------------------------
@@ -75,6 +91,13 @@ bool Cylinder::look(const Vec3d& p, double reach, ShapePoint& out) const {
     const Vec3d normal = direction(way, {1, 0, 0});
     out.normal = normal.x * side + normal.y * end;
     return decide(false, Stretch(way).length, reach, out);
+}
+
+vox_shape_desc Cylinder::desc() const noexcept {
+    vox_shape_desc desc = desc_of(kind());
+    desc.radius = radius_;
+    desc.half_length = half_length_;
+    return desc;
 }
 
 namespace {
@@ -125,6 +148,12 @@ bool BoxShape::look(const Vec3d& p, double reach, ShapePoint& out) const {
     return decide(false, way.length, reach, out);
 }
 
+vox_shape_desc BoxShape::desc() const noexcept {
+    vox_shape_desc desc = desc_of(kind());
+    desc.half_size[0] = half_size_.x, desc.half_size[1] = half_size_.y, desc.half_size[2] = half_size_.z;
+    return desc;
+}
+
 // ---- field ----------------------------------------------------------------------------------------
 
 Field::Field(Evaluate* evaluate, void* user, const Vec3d& half_size) noexcept
@@ -168,6 +197,15 @@ double Field::meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at) const 
         time += at.distance / all;
     }
     return time;
+}
+
+vox_shape_desc Field::desc() const noexcept {
+    vox_shape_desc desc = desc_of(kind());
+    const Vec3d& half = bounds().max;
+    desc.half_size[0] = half.x, desc.half_size[1] = half.y, desc.half_size[2] = half.z;
+    desc.field = evaluate_;
+    desc.field_user = user_;
+    return desc;
 }
 
 } // namespace vox

@@ -30,6 +30,7 @@ public:
     HalfSpace() noexcept;
     using PointByPoint::look;
     bool look(const Vec3d& p, double reach, ShapePoint& out) const override;
+    vox_shape_desc desc() const noexcept override;
 };
 
 // The points within `radius` of the segment from (0, 0, -half_length) to (0, 0, half_length); of a sphere, of
@@ -39,6 +40,7 @@ public:
     Capsule(vox_shape_kind kind, double radius, double half_length) noexcept;
     using PointByPoint::look;
     bool look(const Vec3d& p, double reach, ShapePoint& out) const override;
+    vox_shape_desc desc() const noexcept override;
 
 private:
     double radius_, half_length_;
@@ -50,6 +52,7 @@ public:
     Cylinder(double radius, double half_length) noexcept;
     using PointByPoint::look;
     bool look(const Vec3d& p, double reach, ShapePoint& out) const override;
+    vox_shape_desc desc() const noexcept override;
 
 private:
     double radius_, half_length_;
@@ -60,6 +63,7 @@ public:
     BoxShape(const Vec3d& half_size, std::pmr::memory_resource* memory);
     using PointByPoint::look;
     bool look(const Vec3d& p, double reach, ShapePoint& out) const override;
+    vox_shape_desc desc() const noexcept override;
     const ShapeFacets* facets() const noexcept override { return &facets_; }
 
 private:
@@ -79,6 +83,7 @@ public:
     }
     std::uint32_t look(std::span<const Vec3d> points, double reach, ShapePoint* out) const override;
     double meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at) const override;
+    vox_shape_desc desc() const noexcept override;
 
 private:
     Evaluate* evaluate_;

@@ -49,6 +49,9 @@ public:
     // When a point that moves in a straight line, and begins outside, first meets the shape: from 0 to 1 and
     // never too late, with what it sees there; no_shape_meeting if it never does.
     virtual double meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at) const;
+    // What make_shape() makes the same of, with views of the shape's arrays; of a heightfield, positions are
+    // in place of heights.
+    virtual vox_shape_desc desc() const noexcept = 0;
     // Flat sides, which edges of meshes pass through; null for a shape without.
     virtual const ShapeFacets* facets() const noexcept { return nullptr; }
 

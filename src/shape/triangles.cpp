@@ -31,6 +31,16 @@ TriangleShape::TriangleShape(vox_shape_kind kind, Array<Vec3d>&& points, Array<S
     : RigidShape(kind, bounds_of(points, radius)), facets_(std::move(points), std::move(triangles)),
       radius_(radius) {}
 
+vox_shape_desc TriangleShape::desc() const noexcept {
+    vox_shape_desc desc = vox_default_shape_desc();
+    desc.kind = kind();
+    desc.radius = radius_;
+    desc.positions = vox_double_positions(&facets_.points.data()->x, facets_.points.size());
+    desc.triangles = facets_.triangles.empty() ? nullptr : facets_.triangles.data()->data();
+    desc.triangle_count = facets_.triangles.size();
+    return desc;
+}
+
 // ---- what a point sees ----------------------------------------------------------------------------
 
 // One triangle, with `radius_` around it. Its distance is negative for a point that is enclosed.
@@ -226,10 +236,20 @@ Array<ShapeTriangle> lattice(std::uint32_t columns, std::uint32_t rows, std::pmr
 
 } // namespace
 
-Heightfield::Heightfield(Array<Vec3d>&& points, std::uint32_t columns, std::uint32_t rows)
-    : TriangleShape(VOX_SHAPE_HEIGHTFIELD, std::move(points), lattice(columns, rows, points.memory()), 0),
-      columns_(columns), rows_(rows) {
+Heightfield::Heightfield(Array<Vec3d>&& points, const vox_shape_desc& desc)
+    : TriangleShape(VOX_SHAPE_HEIGHTFIELD, std::move(points),
+                    lattice(desc.columns, desc.rows, points.memory()), 0),
+      columns_(desc.columns), rows_(desc.rows), spacing_{desc.spacing[0], desc.spacing[1]} {
     bounds_.min.z = -unlimited;
+}
+
+vox_shape_desc Heightfield::desc() const noexcept {
+    vox_shape_desc desc = TriangleShape::desc();
+    desc.triangle_count = 0;
+    desc.columns = columns_;
+    desc.rows = rows_;
+    desc.spacing[0] = spacing_[0], desc.spacing[1] = spacing_[1];
+    return desc;
 }
 
 bool Heightfield::encloses(const Vec3d& p) const {

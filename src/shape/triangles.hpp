@@ -15,6 +15,7 @@ public:
     bool look(const Vec3d& p, double reach, ShapePoint& out) const final;
     bool is_beyond(const Vec3d& centre, double radius, double reach) const final;
     double meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at) const final;
+    vox_shape_desc desc() const noexcept override;
     const ShapeFacets* facets() const noexcept final { return &facets_; }
 
 protected:
@@ -59,12 +60,14 @@ private:
 // Terrain: each cell of a lattice is two triangles, and what is below them is inside, decided exactly.
 class Heightfield final : public TriangleShape {
 public:
-    Heightfield(Array<Vec3d>&& points, std::uint32_t columns, std::uint32_t rows);
+    Heightfield(Array<Vec3d>&& points, const vox_shape_desc& desc);
+    vox_shape_desc desc() const noexcept override;
 
 private:
     bool encloses(const Vec3d& p) const override;
 
     std::uint32_t columns_, rows_; // of points
+    double spacing_[2];
 };
 
 } // namespace vox
