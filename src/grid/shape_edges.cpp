@@ -53,9 +53,10 @@ public:
 private:
     bool is_near(const SurfaceTile& tile) const {
         const Box* const blocks = pair_.scene.boxes->blocks.data() + pair_.scene.of[pair_.body].first_block;
-        const std::span<const std::uint32_t> some =
-            std::span(features_.blocks).subspan(tile.first_block, tile.block_count);
-        return std::ranges::any_of(some, [&](std::uint32_t b) { return overlap(blocks[b], pair_.box); });
+        Box around = empty_box; // between blocks, too
+        for (std::uint32_t b = 0; b < tile.block_count; ++b)
+            vox::add(around, blocks[features_.blocks[tile.first_block + b]]);
+        return overlap(around, pair_.box);
     }
 
     void search(const SurfaceTile& tile) {
