@@ -2,6 +2,8 @@
 
 #include "base/simd.hpp"
 
+#include <algorithm>
+
 #undef VOX_SOURCE
 #define VOX_SOURCE "grid/box_lanes.cpp"
 #include "base/each_target.hpp"
@@ -64,6 +66,47 @@ void KeepNear(const Segment* HWY_RESTRICT segments, std::size_t count, const Fac
     }
 }
 
+// Which way around a line with direction e and moment n one with d and m goes is the sign of d.n + m.e. The
+// sum of floats is off by less than 2^-20 of the sum of the magnitudes of its six products.
+void KeepCrossed(const Segment* HWY_RESTRICT segments, std::size_t count, const FaceLines& faces,
+                 std::uint32_t* HWY_RESTRICT met) {
+    const hn::CappedTag<float, 16> d;
+    using V = hn::Vec<decltype(d)>;
+    constexpr float rounding = 0x1p-18f, underflow = 0x1p-90f;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (met[i] == 0) continue;
+        const Vec3d from = faces.scale * (segments[i].from - faces.origin),
+                    along = faces.scale * (segments[i].to - segments[i].from);
+        if (!(std::max(largest_coordinate(from), largest_coordinate(along)) < 0x1p20)) continue;
+        const Line line(from, along);
+        const V way[3] = {hn::Set(d, line.way.x), hn::Set(d, line.way.y), hn::Set(d, line.way.z)};
+        const V moment[3] = {hn::Set(d, line.moment.x), hn::Set(d, line.moment.y),
+                             hn::Set(d, line.moment.z)};
+        const V way_size = hn::Set(d, rounding * line.way_size),
+                moment_size = hn::Set(d, rounding * line.moment_size);
+        std::uint64_t beside = 0;
+        for (std::size_t k = 0; k < FaceBoxes::count; k += hn::Lanes(d)) {
+            auto left = hn::FirstN(d, 0), right = left;
+            for (std::size_t side = 0; side < 3; ++side) {
+                const auto times = [&](const V(&v)[3], const float(&of)[3][FaceBoxes::count],
+                                       V sum) HWY_ATTR {
+                    for (std::size_t axis = 0; axis < 3; ++axis)
+                        sum = hn::MulAdd(v[axis], hn::LoadU(d, of[axis] + k), sum);
+                    return sum;
+                };
+                const V around = times(way, faces.moment[side], times(moment, faces.way[side], hn::Zero(d)));
+                const V error = hn::MulAdd(
+                    way_size, hn::LoadU(d, faces.moment_size[side] + k),
+                    hn::MulAdd(moment_size, hn::LoadU(d, faces.way_size[side] + k), hn::Set(d, underflow)));
+                left = hn::Or(left, hn::Gt(around, error));
+                right = hn::Or(right, hn::Gt(hn::Neg(around), error));
+            }
+            beside |= BitsOfMask(d, hn::And(left, right)) << k;
+        }
+        met[i] &= ~static_cast<std::uint32_t>(beside);
+    }
+}
+
 } // namespace HWY_NAMESPACE
 } // namespace vox
 HWY_AFTER_NAMESPACE();
@@ -79,6 +122,11 @@ void find_faces(const Box* boxes, std::size_t count, const FaceBoxes& faces, std
 void keep_near(const Segment* segments, std::size_t count, const FaceSlabs& faces, float reach,
                std::uint32_t* met) noexcept {
     VOX_SIMD_DISPATCH(KeepNear)(segments, count, faces, reach, met);
+}
+
+void keep_crossed(const Segment* segments, std::size_t count, const FaceLines& faces,
+                  std::uint32_t* met) noexcept {
+    VOX_SIMD_DISPATCH(KeepCrossed)(segments, count, faces, met);
 }
 
 } // namespace vox

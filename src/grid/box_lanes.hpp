@@ -44,4 +44,33 @@ struct Segment {
 void keep_near(const Segment* segments, std::size_t count, const FaceSlabs& faces, float reach,
                std::uint32_t* met) noexcept;
 
+// A line by its direction and its moment about the origin, rounded to floats. The sizes are the largest
+// coordinates; what doubles lose of the moment is in its size.
+struct Line {
+    Vec3f way, moment;
+    float way_size, moment_size;
+
+    Line(const Vec3d& from, const Vec3d& along) noexcept {
+        const Vec3d about = cross(from, along);
+        const double size = largest_coordinate(along), far = largest_coordinate(from);
+        way = nearest_floats(along);
+        moment = nearest_floats(about);
+        way_size = static_cast<float>(size);
+        moment_size = static_cast<float>(largest_coordinate(about) + 0x1p-28 * far * size);
+    }
+};
+
+// The sides of the faces as lines, seen from `origin`, times a scale by which coordinates are at most 1.
+struct FaceLines {
+    Vec3d origin;
+    double scale = 0;
+    alignas(64) float way[3][3][FaceBoxes::count] = {}, moment[3][3][FaceBoxes::count] = {}; // side, axis
+    alignas(64) float way_size[3][FaceBoxes::count] = {}, moment_size[3][FaceBoxes::count] = {};
+};
+
+// Takes faces out of `met` that the line of a segment certainly passes beside: it does so clockwise of one
+// side, and counter-clockwise of another.
+void keep_crossed(const Segment* segments, std::size_t count, const FaceLines& faces,
+                  std::uint32_t* met) noexcept;
+
 } // namespace vox
