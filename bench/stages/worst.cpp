@@ -207,7 +207,8 @@ Bodies slivers(const Setting& setting, const Parameters& p, Random&) {
 Bodies fans(const Setting& setting, const Parameters& p, Random&) {
     Bodies bodies(2);
     const auto count = std::uint32_t(setting.tets / 2);
-    const double twist = 2 * p[0], thick = 0.02 + 0.5 * p[1] * p[1], width = 0.5 + p[2], high = 2.0 * thick * (p[0] + p[3]) + 1e-3;
+    const double twist = 2 * p[0], thick = 0.02 + 0.5 * p[1] * p[1], width = 0.5 + p[2],
+                 high = 2.0 * thick * (p[0] + p[3]) + 1e-3;
     for (std::uint32_t i = 0; i < 2 * count; ++i) {
         const double side = i / count, at = width * (i % count + 0.5 - count / 2.0);
         Mesh& mesh = bodies[i / count];

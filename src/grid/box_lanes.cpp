@@ -80,20 +80,19 @@ void KeepCrossed(const Segment* HWY_RESTRICT segments, std::size_t count, const 
         if (!(std::max(largest_coordinate(from), largest_coordinate(along)) < 0x1p20)) continue;
         const Line line(from, along);
         const V way[3] = {hn::Set(d, line.way.x), hn::Set(d, line.way.y), hn::Set(d, line.way.z)};
-        const V moment[3] = {hn::Set(d, line.moment.x), hn::Set(d, line.moment.y),
-                             hn::Set(d, line.moment.z)};
+        const V moment[3] = {hn::Set(d, line.moment.x), hn::Set(d, line.moment.y), hn::Set(d, line.moment.z)};
         const V way_size = hn::Set(d, rounding * line.way_size),
                 moment_size = hn::Set(d, rounding * line.moment_size);
         std::uint64_t beside = 0;
         for (std::size_t k = 0; k < FaceBoxes::count; k += hn::Lanes(d)) {
             auto left = hn::FirstN(d, 0), right = left;
             for (std::size_t side = 0; side < 3; ++side) {
-                const auto times = [&](const V(&v)[3], const float(&of)[3][FaceBoxes::count],
-                                       V sum) HWY_ATTR {
-                    for (std::size_t axis = 0; axis < 3; ++axis)
-                        sum = hn::MulAdd(v[axis], hn::LoadU(d, of[axis] + k), sum);
-                    return sum;
-                };
+                const auto times = [&](const V(&v)[3], const float(&of)[3][FaceBoxes::count], V sum)
+                                       HWY_ATTR {
+                                           for (std::size_t axis = 0; axis < 3; ++axis)
+                                               sum = hn::MulAdd(v[axis], hn::LoadU(d, of[axis] + k), sum);
+                                           return sum;
+                                       };
                 const V around = times(way, faces.moment[side], times(moment, faces.way[side], hn::Zero(d)));
                 const V error = hn::MulAdd(
                     way_size, hn::LoadU(d, faces.moment_size[side] + k),

@@ -99,7 +99,8 @@ Span span_of_part(const SearchedBody& body, std::uint32_t index, const OrientedB
         const std::array<std::uint8_t, 3>& corners = body.features->faces[f];
         for (std::size_t c = 0; c < 3; ++c) {
             const std::size_t i = corners[c], j = corners[c == 2 ? 0 : c + 1];
-            if (std::max(along[i], along[j]) < within.lo || std::min(along[i], along[j]) > within.hi) continue;
+            if (std::max(along[i], along[j]) < within.lo || std::min(along[i], along[j]) > within.hi)
+                continue;
             const double way = along[j] - along[i], rise = at[j] - at[i];
             double from = 0, to = 1;
             if (std::abs(way) > steep) {
@@ -133,10 +134,8 @@ bool tiles_stay_apart(const SearchedBody& a, std::uint32_t tile_a, const Oriente
     const Vec3d w = normalised(cross(box_a.axis[0], box_b.axis[0]));
     if (!(dot(w, w) > 0)) return false;
     const Vec3d &of_a = narrow_axis(box_a, box_b), &of_b = narrow_axis(box_b, box_a);
-    const Span part_a =
-        span_of_part(a, tile_a, box_a, of_b, span_along(of_b, box_b, reach), w);
-    const Span part_b =
-        span_of_part(b, tile_b, box_b, of_a, span_along(of_a, box_a, reach), w);
+    const Span part_a = span_of_part(a, tile_a, box_a, of_b, span_along(of_b, box_b, reach), w);
+    const Span part_b = span_of_part(b, tile_b, box_b, of_a, span_along(of_a, box_a, reach), w);
     return part_a.hi + reach < part_b.lo || part_b.hi + reach < part_a.lo;
 }
 
