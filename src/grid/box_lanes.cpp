@@ -72,35 +72,29 @@ void KeepCrossed(const Segment* HWY_RESTRICT segments, std::size_t count, const 
                  std::uint32_t* HWY_RESTRICT met) {
     const hn::CappedTag<float, 16> d;
     using V = hn::Vec<decltype(d)>;
-    constexpr float rounding = 0x1p-18f, underflow = 0x1p-90f;
+    const V rounding = hn::Set(d, 0x1p-18f), underflow = hn::Set(d, 0x1p-90f);
     for (std::size_t i = 0; i < count; ++i) {
         if (met[i] == 0) continue;
         const Vec3d from = faces.scale * (segments[i].from - faces.origin),
-                    along = faces.scale * (segments[i].to - segments[i].from);
-        if (!(std::max(largest_coordinate(from), largest_coordinate(along)) < 0x1p20)) continue;
-        const Line line(from, along);
-        const V way[3] = {hn::Set(d, line.way.x), hn::Set(d, line.way.y), hn::Set(d, line.way.z)};
-        const V moment[3] = {hn::Set(d, line.moment.x), hn::Set(d, line.moment.y), hn::Set(d, line.moment.z)};
-        const V way_size = hn::Set(d, rounding * line.way_size),
-                moment_size = hn::Set(d, rounding * line.moment_size);
+                    way = faces.scale * (segments[i].to - segments[i].from);
+        if (!(std::max(largest_coordinate(from), largest_coordinate(way)) < 0x1p20)) continue;
+        const Line line(from, way);
         std::uint64_t beside = 0;
         for (std::size_t k = 0; k < FaceBoxes::count; k += hn::Lanes(d)) {
-            auto left = hn::FirstN(d, 0), right = left;
+            std::uint64_t left = 0, right = 0;
             for (std::size_t side = 0; side < 3; ++side) {
-                const auto times = [&](const V(&v)[3], const float(&of)[3][FaceBoxes::count], V sum)
-                                       HWY_ATTR {
-                                           for (std::size_t axis = 0; axis < 3; ++axis)
-                                               sum = hn::MulAdd(v[axis], hn::LoadU(d, of[axis] + k), sum);
-                                           return sum;
-                                       };
-                const V around = times(way, faces.moment[side], times(moment, faces.way[side], hn::Zero(d)));
-                const V error = hn::MulAdd(
-                    way_size, hn::LoadU(d, faces.moment_size[side] + k),
-                    hn::MulAdd(moment_size, hn::LoadU(d, faces.way_size[side] + k), hn::Set(d, underflow)));
-                left = hn::Or(left, hn::Gt(around, error));
-                right = hn::Or(right, hn::Gt(hn::Neg(around), error));
+                V around = hn::Zero(d), size = hn::Zero(d);
+                for (std::size_t c = 0; c < 6; ++c)
+                    around = hn::MulAdd(hn::Set(d, line.at[c]), hn::LoadU(d, faces.at[side][(c + 3) % 6] + k),
+                                        around);
+                for (std::size_t c = 0; c < 2; ++c)
+                    size =
+                        hn::MulAdd(hn::Set(d, line.size[c]), hn::LoadU(d, faces.size[side][1 - c] + k), size);
+                const V error = hn::MulAdd(rounding, size, underflow);
+                left |= BitsOfMask(d, hn::Gt(around, error));
+                right |= BitsOfMask(d, hn::Gt(hn::Neg(around), error));
             }
-            beside |= BitsOfMask(d, hn::And(left, right)) << k;
+            beside |= (left & right) << k;
         }
         met[i] &= ~static_cast<std::uint32_t>(beside);
     }

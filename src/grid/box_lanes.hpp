@@ -6,6 +6,7 @@
 #include "base/vectors.hpp"
 #include "grid/surface_features.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -44,19 +45,18 @@ struct Segment {
 void keep_near(const Segment* segments, std::size_t count, const FaceSlabs& faces, float reach,
                std::uint32_t* met) noexcept;
 
-// A line by its direction and its moment about the origin, rounded to floats. The sizes are the largest
-// coordinates; what doubles lose of the moment is in its size.
+// The direction of a line and its moment about the origin, rounded to floats, and the largest coordinate of
+// each; what doubles lose of the moment is in its size.
 struct Line {
-    Vec3f way, moment;
-    float way_size, moment_size;
+    float at[6], size[2];
 
-    Line(const Vec3d& from, const Vec3d& along) noexcept {
-        const Vec3d about = cross(from, along);
-        const double size = largest_coordinate(along), far = largest_coordinate(from);
-        way = nearest_floats(along);
-        moment = nearest_floats(about);
-        way_size = static_cast<float>(size);
-        moment_size = static_cast<float>(largest_coordinate(about) + 0x1p-28 * far * size);
+    Line(const Vec3d& from, const Vec3d& way) noexcept {
+        const Vec3d moment = cross(from, way);
+        const double of[] = {way.x, way.y, way.z, moment.x, moment.y, moment.z};
+        std::transform(of, of + 6, at, [](double x) { return static_cast<float>(x); });
+        const double length = largest_coordinate(way), lost = 0x1p-28 * largest_coordinate(from) * length;
+        size[0] = static_cast<float>(length);
+        size[1] = static_cast<float>(largest_coordinate(moment) + lost);
     }
 };
 
@@ -64,8 +64,7 @@ struct Line {
 struct FaceLines {
     Vec3d origin;
     double scale = 0;
-    alignas(64) float way[3][3][FaceBoxes::count] = {}, moment[3][3][FaceBoxes::count] = {}; // side, axis
-    alignas(64) float way_size[3][FaceBoxes::count] = {}, moment_size[3][FaceBoxes::count] = {};
+    alignas(64) float at[3][6][FaceBoxes::count] = {}, size[3][2][FaceBoxes::count] = {};
 };
 
 // Takes faces out of `met` that the line of a segment certainly passes beside: it does so clockwise of one

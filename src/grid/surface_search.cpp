@@ -158,11 +158,8 @@ void load_slabs(const SurfaceFeatures& features, const SurfaceTile& tile, const 
 
 void load_lines(const SurfaceFeatures& features, const SurfaceTile& tile, const Vec3d* points,
                 FaceLines& out) noexcept {
-    Vec3d lo = points[0], hi = points[0];
-    for (std::uint32_t v = 1; v < tile.vertex_count; ++v) {
-        lo = min(lo, points[v]);
-        hi = max(hi, points[v]);
-    }
+    Vec3d lo = points[0], hi = lo;
+    for (const Vec3d& p : std::span(points, tile.vertex_count)) lo = min(lo, p), hi = max(hi, p);
     out.origin = 0.5 * (lo + hi);
     const double size = largest_coordinate(hi - lo);
     out.scale = size > 0x1p-900 ? 1 / size : 0; // if 0, no line is beside any other
@@ -171,14 +168,8 @@ void load_lines(const SurfaceFeatures& features, const SurfaceTile& tile, const 
             const std::array<std::uint8_t, 3>& corners = features.faces[tile.first_face + f];
             const Vec3d &from = points[corners[side]], &to = points[corners[side == 2 ? 0 : side + 1]];
             const Line line(out.scale * (from - out.origin), out.scale * (to - from));
-            const float way[3] = {line.way.x, line.way.y, line.way.z},
-                        moment[3] = {line.moment.x, line.moment.y, line.moment.z};
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                out.way[side][axis][f] = way[axis];
-                out.moment[side][axis][f] = moment[axis];
-            }
-            out.way_size[side][f] = line.way_size;
-            out.moment_size[side][f] = line.moment_size;
+            for (std::size_t c = 0; c < 6; ++c) out.at[side][c][f] = line.at[c];
+            for (std::size_t c = 0; c < 2; ++c) out.size[side][c][f] = line.size[c];
         }
 }
 

@@ -105,8 +105,8 @@ private:
     }
 };
 
-// Of a tile of a body that stands still: its vertices; the box around them along its longest edge; and boxes
-// of its faces, each along axes of its own.
+// Of a tile of a body that stands still: its vertices; the box around them along what its longest edges have
+// in common; boxes of its faces, each along axes of its own; and the sides of these as lines.
 inline void load_still(const SearchedBody& body, const SurfaceTile& tile, Vec3d* out) noexcept {
     for (std::uint32_t v = 0; v < tile.vertex_count; ++v) {
         const float* const p = body.at + 3 * std::size_t{body.features->vertices[tile.first_vertex + v]};
