@@ -15,6 +15,7 @@
 //
 // FOLDER has bunny.msh and cow.msh for one more scene.
 #include "base/boxes.hpp"
+#include "base/vectors.hpp"
 #include "internal/meshes.hpp"
 #include "program.hpp"
 #include "scenes/counters.h"
@@ -40,6 +41,7 @@
 namespace {
 
 using bench::must;
+using vox::Vec3d;
 using vox::Vec3f;
 
 using Parameters = std::array<double, 4>;
@@ -201,6 +203,27 @@ Bodies slivers(const Setting& setting, const Parameters& p, Random&) {
     return bodies;
 }
 
+// Two fans of needles in each other: rulings of one saddle, across each other, that hardly touch.
+Bodies fans(const Setting& setting, const Parameters& p, Random&) {
+    Bodies bodies(2);
+    const auto count = std::uint32_t(setting.tets / 2);
+    const double twist = 2 * p[0], thick = 0.02 + 0.5 * p[1] * p[1], width = 0.5 + p[2],
+                 high = 2.0 * thick * (p[0] + p[3]) + 1e-3;
+    for (std::uint32_t i = 0; i < 2 * count; ++i) {
+        const double side = i / count, at = width * (i % count + 0.5 - count / 2.0);
+        Mesh& mesh = bodies[i / count];
+        const auto v = std::uint32_t(mesh.positions.size());
+        for (const Vec3d& c : {Vec3d{-0.5, 0, 0}, {-0.5, 1, 0}, {0.5, 0, 1}, {0.5, 1, 1}}) {
+            const double x = count * c.x, y = at + thick * c.y,
+                         z = twist * x * y / count + thick * c.z + side * (high + thick);
+            const Vec3f on = turned({float(z), float(side > 0 ? y : x), float(side > 0 ? x : y)}, 0.7);
+            mesh.positions.push_back(turned({on.y, on.z, on.x}, 0.6));
+        }
+        mesh.tets.push_back({{v, v + 1, v + 2, v + 3}});
+    }
+    return bodies;
+}
+
 struct Kind {
     const char* name;
     Bodies (*make)(const Setting&, const Parameters&, Random&);
@@ -215,6 +238,7 @@ constexpr Kind kinds[] = {{"noise", noise},
                           {"noisy pair", noisy_pair},
                           {"points", points},
                           {"slivers", slivers},
+                          {"fans", fans},
                           {"bunny in cow", swallow_bunny}};
 
 // ---- measuring --------------------------------------------------------------------------------------

@@ -267,6 +267,15 @@ void scaled_volumes(const VolumePoints& points, std::span<const VolumeCorners> o
     }
 }
 
+Vec3d exact_normal(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+    const auto p = in_units(std::array{a, b, c});
+    const Integer ux = p[1].x - p[0].x, uy = p[1].y - p[0].y, uz = p[1].z - p[0].z;
+    const Integer vx = p[2].x - p[0].x, vy = p[2].y - p[0].y, vz = p[2].z - p[0].z;
+    const Integer x = uy * vz - vy * uz, y = uz * vx - vz * ux, z = ux * vy - vx * uy;
+    const int bits = std::max({bit_count(x), bit_count(y), bit_count(z)});
+    return {scaled(x, bits), scaled(y, bits), scaled(z, bits)};
+}
+
 std::array<double, 4> exact_weights(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c,
                                     const Vec3d& d) {
     const auto q = in_units(std::array{a, b, c, d, p});

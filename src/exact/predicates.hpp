@@ -193,6 +193,9 @@ std::array<double, 4> barycentric(const Vec3d& p, const Vec3d& a, const Vec3d& b
 std::array<double, 4> exact_weights(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c,
                                     const Vec3d& d);
 
+// (b-a) x (c-a) times a power of two that makes its largest coordinate about 1, each rounded to double once.
+Vec3d exact_normal(const Vec3d& a, const Vec3d& b, const Vec3d& c);
+
 // Where the segment crosses the plane of abc, from 0 to 1, rounded once. One of its ends may be on the plane.
 double exact_crossing(const Vec3d& from, const Vec3d& to, const Vec3d& a, const Vec3d& b, const Vec3d& c);
 

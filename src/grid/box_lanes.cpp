@@ -2,6 +2,8 @@
 
 #include "base/simd.hpp"
 
+#include <algorithm>
+
 #undef VOX_SOURCE
 #define VOX_SOURCE "grid/box_lanes.cpp"
 #include "base/each_target.hpp"
@@ -64,6 +66,40 @@ void KeepNear(const Segment* HWY_RESTRICT segments, std::size_t count, const Fac
     }
 }
 
+// Which way around a line with direction e and moment n one with d and m goes is the sign of d.n + m.e. The
+// sum of floats is off by less than 2^-20 of the sum of the magnitudes of its six products.
+void KeepCrossed(const Segment* HWY_RESTRICT segments, std::size_t count, const FaceLines& faces,
+                 std::uint32_t* HWY_RESTRICT met) {
+    const hn::CappedTag<float, 16> d;
+    using V = hn::Vec<decltype(d)>;
+    const V rounding = hn::Set(d, 0x1p-18f), underflow = hn::Set(d, 0x1p-90f);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (met[i] == 0) continue;
+        const Vec3d from = faces.scale * (segments[i].from - faces.origin),
+                    way = faces.scale * (segments[i].to - segments[i].from);
+        if (!(std::max(largest_coordinate(from), largest_coordinate(way)) < 0x1p20)) continue;
+        const Line line(from, way);
+        std::uint64_t beside = 0;
+        for (std::size_t k = 0; k < FaceBoxes::count; k += hn::Lanes(d)) {
+            std::uint64_t left = 0, right = 0;
+            for (std::size_t side = 0; side < 3; ++side) {
+                V around = hn::Zero(d), size = hn::Zero(d);
+                for (std::size_t c = 0; c < 6; ++c)
+                    around = hn::MulAdd(hn::Set(d, line.at[c]), hn::LoadU(d, faces.at[side][(c + 3) % 6] + k),
+                                        around);
+                for (std::size_t c = 0; c < 2; ++c)
+                    size =
+                        hn::MulAdd(hn::Set(d, line.size[c]), hn::LoadU(d, faces.size[side][1 - c] + k), size);
+                const V error = hn::MulAdd(rounding, size, underflow);
+                left |= BitsOfMask(d, hn::Gt(around, error));
+                right |= BitsOfMask(d, hn::Gt(hn::Neg(around), error));
+            }
+            beside |= (left & right) << k;
+        }
+        met[i] &= ~static_cast<std::uint32_t>(beside);
+    }
+}
+
 } // namespace HWY_NAMESPACE
 } // namespace vox
 HWY_AFTER_NAMESPACE();
@@ -79,6 +115,11 @@ void find_faces(const Box* boxes, std::size_t count, const FaceBoxes& faces, std
 void keep_near(const Segment* segments, std::size_t count, const FaceSlabs& faces, float reach,
                std::uint32_t* met) noexcept {
     VOX_SIMD_DISPATCH(KeepNear)(segments, count, faces, reach, met);
+}
+
+void keep_crossed(const Segment* segments, std::size_t count, const FaceLines& faces,
+                  std::uint32_t* met) noexcept {
+    VOX_SIMD_DISPATCH(KeepCrossed)(segments, count, faces, met);
 }
 
 } // namespace vox

@@ -6,6 +6,7 @@
 #include "base/vectors.hpp"
 #include "grid/surface_features.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -43,5 +44,32 @@ struct Segment {
 };
 void keep_near(const Segment* segments, std::size_t count, const FaceSlabs& faces, float reach,
                std::uint32_t* met) noexcept;
+
+// The direction of a line and its moment about the origin, rounded to floats, and the largest coordinate of
+// each; what doubles lose of the moment is in its size.
+struct Line {
+    float at[6], size[2];
+
+    Line(const Vec3d& from, const Vec3d& way) noexcept {
+        const Vec3d moment = cross(from, way);
+        const double of[] = {way.x, way.y, way.z, moment.x, moment.y, moment.z};
+        std::transform(of, of + 6, at, [](double x) { return static_cast<float>(x); });
+        const double length = largest_coordinate(way), lost = 0x1p-28 * largest_coordinate(from) * length;
+        size[0] = static_cast<float>(length);
+        size[1] = static_cast<float>(largest_coordinate(moment) + lost);
+    }
+};
+
+// The sides of the faces as lines, seen from `origin`, times a scale by which coordinates are at most 1.
+struct FaceLines {
+    Vec3d origin;
+    double scale = 0;
+    alignas(64) float at[3][6][FaceBoxes::count] = {}, size[3][2][FaceBoxes::count] = {};
+};
+
+// Takes faces out of `met` that the line of a segment certainly passes beside: it does so clockwise of one
+// side, and counter-clockwise of another.
+void keep_crossed(const Segment* segments, std::size_t count, const FaceLines& faces,
+                  std::uint32_t* met) noexcept;
 
 } // namespace vox

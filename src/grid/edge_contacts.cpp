@@ -131,7 +131,8 @@ void EdgeContacts::search(const StepScene& scene, const fast::Pair& pair, const 
         bool is_loaded = false;
         worker.is_crowded = false;
         const auto is_apart = [&](std::size_t j) {
-            return stay_apart(worker.oriented_a, worker.oriented_b[j], reach);
+            return tiles_stay_apart(bodies_[pair.a], tiles.tiles_a[i], worker.oriented_a, bodies_[pair.b],
+                                    tiles.tiles_b[j], worker.oriented_b[j], reach);
         };
         tiles.boxes_b.for_overlaps(box, [&](std::size_t j) {
             if (is_self && j < i) return;
@@ -217,11 +218,15 @@ bool EdgeContacts::test(const StepScene& scene, LoadedTile& edges, LoadedTile& f
         tile->has_points = true;
     }
     if (pairs > crowd) {
-        if (!faces.has_slabs) load_slabs(*faces.features, *faces.tile, faces.points.data(), faces.slabs);
+        if (!faces.has_slabs) {
+            load_slabs(*faces.features, *faces.tile, faces.points.data(), faces.slabs);
+            load_lines(*faces.features, *faces.tile, faces.points.data(), faces.lines);
+        }
         faces.has_slabs = true;
         std::array<Segment, SurfaceTile::most_edges> segments;
         for (std::uint32_t i = 0; i < count; ++i)
             segments[i] = {edges.points[edges.ends[near[i]][0]], edges.points[edges.ends[near[i]][1]]};
+        keep_crossed(segments.data(), count, faces.lines, met.data());
         keep_near(segments.data(), count, faces.slabs,
                   16 * (bodies_[edges.body].grow + bodies_[faces.body].grow), met.data());
         pairs = count_pairs(std::span(met).first(count));

@@ -81,6 +81,7 @@ private:
         std::array<Vec3d, SurfaceTile::most_vertices> points{};
         std::array<TrianglePlane, SurfaceTile::most_faces> planes{};
         FaceSlabs slabs;
+        FaceLines lines;
     };
     struct Worker {
         static constexpr std::size_t most_loaded = 16;

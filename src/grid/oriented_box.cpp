@@ -11,11 +11,6 @@ namespace vox {
 
 namespace {
 
-double extent(const OrientedBox& box, const Vec3d& w) noexcept {
-    return box.half[0] * std::abs(dot(w, box.axis[0])) + box.half[1] * std::abs(dot(w, box.axis[1])) +
-           box.half[2] * std::abs(dot(w, box.axis[2]));
-}
-
 // Along an axis of length 1, or zero.
 bool apart_along(const Vec3d& w, const OrientedBox& a, const OrientedBox& b, double reach) noexcept {
     return std::abs(dot(w, b.middle - a.middle)) > extent(a, w) + extent(b, w) + reach;

@@ -6,6 +6,7 @@
 #include "base/vectors.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 namespace vox {
@@ -22,6 +23,12 @@ inline OrientedBox oriented_box(const Box& box) noexcept {
     const Vec3d lo{box.lo[0], box.lo[1], box.lo[2]}, hi{box.hi[0], box.hi[1], box.hi[2]};
     const Vec3d half = 0.5 * hi - 0.5 * lo;
     return {0.5 * lo + 0.5 * hi, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {half.x, half.y, half.z}};
+}
+
+// Half of what a box spans along an axis.
+inline double extent(const OrientedBox& box, const Vec3d& w) noexcept {
+    return box.half[0] * std::abs(dot(w, box.axis[0])) + box.half[1] * std::abs(dot(w, box.axis[1])) +
+           box.half[2] * std::abs(dot(w, box.axis[2]));
 }
 
 // Whether two are certainly further apart than `reach`, which is more than 2^-22 times the largest

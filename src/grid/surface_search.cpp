@@ -64,9 +64,79 @@ OrientedBox oriented_box(const SearchedBody& body, std::uint32_t index) noexcept
     for (std::uint32_t f = tile.first_face; f < tile.first_face + tile.face_count; ++f) {
         const auto& [a, b, c] = body.features->faces[f];
         const Vec3d edge = longest_edge(points[a], points[b], points[c]);
-        if (dot(edge, edge) > dot(along, along)) along = edge;
+        along = along + (dot(edge, along) < 0 ? -1 : 1) * edge;
     }
     return oriented_box(std::span(points).first(tile.vertex_count), along);
+}
+
+namespace {
+
+struct Span {
+    double lo, hi;
+};
+
+Span span_along(const Vec3d& w, const OrientedBox& box, double reach) noexcept {
+    const double middle = dot(w, box.middle), half = extent(box, w) + reach;
+    return {middle - half, middle + half};
+}
+
+// What the faces of a tile whose box is `box` span along w, where they lie within `within` along u. The
+// corners of that part of a face are on its sides. A side is cut only where it is so steep that rounding
+// moves the cut by less than 2^-29 of the largest coordinate.
+Span span_of_part(const SearchedBody& body, std::uint32_t index, const OrientedBox& box, const Vec3d& u,
+                  const Span& within, const Vec3d& w) noexcept {
+    const SurfaceTile& tile = body.features->tiles[index];
+    std::array<Vec3d, SurfaceTile::most_vertices> points;
+    load_still(body, tile, points.data());
+    std::array<double, SurfaceTile::most_vertices> along, at;
+    for (std::uint32_t v = 0; v < tile.vertex_count; ++v) {
+        along[v] = dot(u, points[v]);
+        at[v] = dot(w, points[v]);
+    }
+    const double steep = 0x1p-19 * (box.half[0] + box.half[1] + box.half[2]);
+    Span out{HUGE_VAL, -HUGE_VAL};
+    for (std::uint32_t f = tile.first_face; f < tile.first_face + tile.face_count; ++f) {
+        const std::array<std::uint8_t, 3>& corners = body.features->faces[f];
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::size_t i = corners[c], j = corners[c == 2 ? 0 : c + 1];
+            if (std::max(along[i], along[j]) < within.lo || std::min(along[i], along[j]) > within.hi)
+                continue;
+            const double way = along[j] - along[i], rise = at[j] - at[i];
+            double from = 0, to = 1;
+            if (std::abs(way) > steep) {
+                const double s = (within.lo - along[i]) / way, t = (within.hi - along[i]) / way;
+                from = std::max(from, std::min(s, t));
+                to = std::min(to, std::max(s, t));
+            }
+            const double first = at[i] + from * rise, last = at[i] + to * rise;
+            out.lo = std::min({out.lo, first, last});
+            out.hi = std::max({out.hi, first, last});
+        }
+    }
+    return out;
+}
+
+// The axis of the box that cuts the other one shortest.
+const Vec3d& narrow_axis(const OrientedBox& box, const OrientedBox& other) noexcept {
+    std::size_t best = 0;
+    const auto steepness = [&](std::size_t k) { return std::abs(dot(box.axis[k], other.axis[0])); };
+    for (std::size_t k = 1; k < 3; ++k)
+        if (steepness(k) * box.half[best] > steepness(best) * box.half[k]) best = k;
+    return box.axis[best];
+}
+
+} // namespace
+
+bool tiles_stay_apart(const SearchedBody& a, std::uint32_t tile_a, const OrientedBox& box_a,
+                      const SearchedBody& b, std::uint32_t tile_b, const OrientedBox& box_b,
+                      double reach) noexcept {
+    if (stay_apart(box_a, box_b, reach)) return true;
+    const Vec3d w = normalised(cross(box_a.axis[0], box_b.axis[0]));
+    if (!(dot(w, w) > 0)) return false;
+    const Vec3d &of_a = narrow_axis(box_a, box_b), &of_b = narrow_axis(box_b, box_a);
+    const Span part_a = span_of_part(a, tile_a, box_a, of_b, span_along(of_b, box_b, reach), w);
+    const Span part_b = span_of_part(b, tile_b, box_b, of_a, span_along(of_a, box_a, reach), w);
+    return part_a.hi + reach < part_b.lo || part_b.hi + reach < part_a.lo;
 }
 
 void load_slabs(const SurfaceFeatures& features, const SurfaceTile& tile, const Vec3d* points,
@@ -84,6 +154,23 @@ void load_slabs(const SurfaceFeatures& features, const SurfaceTile& tile, const 
             out.hi[k][f] = static_cast<float>(FaceSlabs::scale * (at + box.half[k]));
         }
     }
+}
+
+void load_lines(const SurfaceFeatures& features, const SurfaceTile& tile, const Vec3d* points,
+                FaceLines& out) noexcept {
+    Vec3d lo = points[0], hi = lo;
+    for (const Vec3d& p : std::span(points, tile.vertex_count)) lo = min(lo, p), hi = max(hi, p);
+    out.origin = 0.5 * (lo + hi);
+    const double size = largest_coordinate(hi - lo);
+    out.scale = size > 0x1p-900 ? 1 / size : 0; // if 0, no line is beside any other
+    for (std::uint32_t f = 0; f < tile.face_count; ++f)
+        for (std::size_t side = 0; side < 3; ++side) {
+            const std::array<std::uint8_t, 3>& corners = features.faces[tile.first_face + f];
+            const Vec3d &from = points[corners[side]], &to = points[corners[side == 2 ? 0 : side + 1]];
+            const Line line(out.scale * (from - out.origin), out.scale * (to - from));
+            for (std::size_t c = 0; c < 6; ++c) out.at[side][c][f] = line.at[c];
+            for (std::size_t c = 0; c < 2; ++c) out.size[side][c][f] = line.size[c];
+        }
 }
 
 void SearchedBodies::begin(const StepScene& scene) {

@@ -105,8 +105,8 @@ private:
     }
 };
 
-// Of a tile of a body that stands still: its vertices; the box around them along its longest edge; and boxes
-// of its faces, each along axes of its own.
+// Of a tile of a body that stands still: its vertices; the box around them along what its longest edges have
+// in common; boxes of its faces, each along axes of its own; and the sides of these as lines.
 inline void load_still(const SearchedBody& body, const SurfaceTile& tile, Vec3d* out) noexcept {
     for (std::uint32_t v = 0; v < tile.vertex_count; ++v) {
         const float* const p = body.at + 3 * std::size_t{body.features->vertices[tile.first_vertex + v]};
@@ -114,8 +114,14 @@ inline void load_still(const SearchedBody& body, const SurfaceTile& tile, Vec3d*
     }
 }
 OrientedBox oriented_box(const SearchedBody& body, std::uint32_t tile) noexcept;
+// Whether what there is of two tiles in the box of the other is certainly further apart than `reach`.
+bool tiles_stay_apart(const SearchedBody& a, std::uint32_t tile_a, const OrientedBox& box_a,
+                      const SearchedBody& b, std::uint32_t tile_b, const OrientedBox& box_b,
+                      double reach) noexcept;
 void load_slabs(const SurfaceFeatures& features, const SurfaceTile& tile, const Vec3d* points,
                 FaceSlabs& out) noexcept;
+void load_lines(const SurfaceFeatures& features, const SurfaceTile& tile, const Vec3d* points,
+                FaceLines& out) noexcept;
 
 // The bodies of one search, and the boxes of their tiles: made where others reach them, else empty.
 class SearchedBodies {

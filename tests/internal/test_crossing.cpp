@@ -3,6 +3,8 @@
 //
 // Environment: VOX_CROSSING_CASES, how many of each kind.
 #include "exact/crossing.hpp"
+#include "exact/facet_normal.hpp"
+#include "grid/surface_search.hpp"
 #include "internal/random.hpp"
 #include "internal/rational.hpp"
 #include "support/suite.h"
@@ -159,7 +161,38 @@ void check_point(const Case& of, const Crossing& found, const Truth& truth) {
     if ((truth.t - 1).sign() == 0) ck_assert(found.edge_weights[0] == 0 && found.edge_weights[1] == 1);
 }
 
-std::uint64_t counts[4];
+// Whether lanes of floats say that the line of the segment passes beside the triangle.
+bool is_beside(const Case& of) {
+    static const SurfaceFeatures features = [] {
+        SurfaceFeatures one(std::pmr::get_default_resource());
+        one.faces.push_back({0, 1, 2});
+        return one;
+    }();
+    const SurfaceTile tile{0, 0, 0, 0, 3, 1, 0, 0};
+    const Vec3d corners[3] = {of.a, of.b, of.c};
+    FaceLines lines;
+    load_lines(features, tile, corners, lines);
+    const Segment segment{of.p, of.q};
+    std::uint32_t met = 1;
+    keep_crossed(&segment, 1, lines, &met);
+    return met == 0;
+}
+
+void check_normal(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+    const Vec3d normal = triangle_normal(a, b, c);
+    const Vector exact = cross(vector(b) - vector(a), vector(c) - vector(a));
+    Rational largest = 0;
+    for (const Rational& x : exact) {
+        const Rational size = x.sign() < 0 ? Rational(0) - x : x;
+        if (largest < size) largest = size;
+    }
+    if (largest.sign() == 0) return ck_assert(length(normal) == 0);
+    const Vec3d way{(exact[0] / largest).rounded(), (exact[1] / largest).rounded(),
+                    (exact[2] / largest).rounded()};
+    ck_assert_double_le(length(normal - normalised(way)), 0x1p-28);
+}
+
+std::uint64_t counts[4], beside = 0, beside_in_lanes = 0;
 
 void check(const Case& of) {
     std::uint64_t exact_tests = 0;
@@ -175,7 +208,11 @@ void check(const Case& of) {
     if (found.kind != CrossingKind::none) {
         ck_assert(!TrianglePlane(of.a, of.b, of.c).has_on_one_side(of.p, of.q));
         ck_assert(!passes_beside(of.p, of.q, of.a, of.b, of.c));
+        ck_assert(!is_beside(of));
     }
+    beside += passes_beside(of.p, of.q, of.a, of.b, of.c);
+    beside_in_lanes += is_beside(of);
+    check_normal(of.a, of.b, of.c);
     // The kind is one of the sets of points, in whatever order they are named.
     const Crossing turned = find_crossing(of.q, of.p, of.c, of.a, of.b, exact_tests);
     const Crossing mirrored = find_crossing(of.p, of.q, of.b, of.a, of.c, exact_tests);
@@ -198,9 +235,13 @@ double vanishing(Random& r) { return std::ldexp(2 * r.unit() - 1, -358 + static_
 double exponents_apart(Random& r) {
     return std::ldexp(2 * r.unit() - 1, static_cast<int>(r.below(1100)) - 974);
 }
+double mixed(Random& r) {
+    constexpr double sizes[] = {1e30, 1, 1e-30, 0};
+    return sizes[r.below(4)] * (r.below(2) ? 1 : 2 * r.unit() - 1);
+}
 double huge(Random& r) { return (2 * r.unit() - 1) * FLT_MAX; }
 constexpr Coordinate coordinates[] = {tiny_grid, small_grid, fine_grid, unit_range,      floats, far_away,
-                                      few_ulps,  denormal,   vanishing, exponents_apart, huge};
+                                      few_ulps,  denormal,   vanishing, exponents_apart, mixed,  huge};
 
 Vec3d point(Coordinate make, Random& r) {
     const double x = make(r), y = make(r);
@@ -271,6 +312,7 @@ void check_cases(Case (*make)(Coordinate, Random&)) {
             if (const Case c = make(coordinate, r); in_range(c)) check(c);
     }
     for (const std::uint64_t count : counts) ck_assert_uint_gt(count, 0);
+    ck_assert_uint_gt(10 * beside_in_lanes, 6 * beside);
 }
 
 // Most segments meet no triangle here, and some of the small grids do in every way.

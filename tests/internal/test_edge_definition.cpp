@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <numbers>
 #include <set>
 #include <string>
 #include <tuple>
@@ -409,9 +410,10 @@ END_TEST
 
 // ---- slivers ----------------------------------------------------------------------------------------
 
-// Long thin tetrahedra side by side, turned by `angle`, some of them flat, some twice, under one rotation.
+// Long thin tetrahedra side by side, turned by `angle`, some of them flat, some twice, under one rotation;
+// twisted into a fan.
 TestMesh make_slivers(Random& r, double length, double angle, double height, const double (&turn)[3],
-                      double scale) {
+                      double scale, double twist = 0) {
     TestMesh mesh;
     mesh.doubles = r.below(2) == 0;
     const double thick = r.below(3) > 0 ? 0.3 * r.unit() : 0, slope = r.below(2) ? 0.1 * r.unit() : 0;
@@ -424,6 +426,7 @@ TestMesh make_slivers(Random& r, double length, double angle, double height, con
             {-0.5, -0.4, 0}, {-0.5, 0.4, 0}, {0.5, tilt, -thick}, {0.5, tilt, thick}};
         for (const auto& corner : corners) {
             double p[3] = {length * corner[0], y + corner[1], height + corner[2]};
+            p[2] += twist * p[0] * p[1];
             for (std::size_t axis = 0; axis < 4; ++axis) { // about z, then about each axis
                 const double by = axis == 0 ? angle : turn[axis - 1], c = std::cos(by), s = std::sin(by);
                 double &u = p[axis % 3], &v = p[(axis + 1) % 3];
@@ -524,8 +527,9 @@ END_TEST
 // features overlap, and few are decided.
 START_TEST(slivers_equal_the_definition) {
     std::uint64_t edges = 0, near = 0, edge_candidates = 0, face_candidates = 0, edge_pairs = 0,
-                  face_pairs = 0;
-    for (std::uint64_t seed = 1; seed <= 32; ++seed) {
+                  face_pairs = 0, fan_candidates = 0, fan_pairs = 0;
+    for (std::uint64_t seed = 1; seed <= 48; ++seed) {
+        const bool is_fan = seed > 32; // rulings of one saddle, in each other
         Random r{seed};
         const double length = std::pow(10, 1.5 + 1.5 * r.unit()),
                      turn[3] = {3 * r.unit(), 3 * r.unit(), 3 * r.unit()};
@@ -535,6 +539,11 @@ START_TEST(slivers_equal_the_definition) {
                      margin = scale * r.unit(), height = r.below(6) ? 0.6 + r.unit() : 0.1;
         std::vector<TestMesh> meshes{make_slivers(r, length, 0, 0, turn, scale),
                                      make_slivers(r, length, 1.5 * r.unit(), height, turn, scale)};
+        if (is_fan) {
+            const double twist = 0.002 + 0.01 * r.unit();
+            meshes = {make_slivers(r, 49, 0, 0, turn, scale, twist),
+                      make_slivers(r, 49, 0.5 * std::numbers::pi, height, turn, scale, -twist)};
+        }
         const std::vector<Expected> expected = brute_force(meshes, {});
         for (const std::uint32_t workers : {1u, 3u}) {
             vox_grid_desc desc = vox_default_grid_desc();
@@ -562,16 +571,18 @@ START_TEST(slivers_equal_the_definition) {
             ck_assert_uint_eq(found, slivers.near.size());
             edges += expected.size();
             near += found;
-            edge_pairs += slivers.edge_pairs;
             face_pairs += slivers.face_pairs;
-            edge_candidates += counters_of(grid).edge_candidates;
+            (is_fan ? fan_pairs : edge_pairs) += slivers.edge_pairs;
+            (is_fan ? fan_candidates : edge_candidates) += counters_of(grid).edge_candidates;
             face_candidates += counters_of(grid).face_candidates;
             vox_grid_destroy(grid);
         }
     }
     ck_assert_uint_gt(edges, 1000);
     ck_assert_uint_gt(near, 300);
-    ck_assert_uint_lt(10 * edge_candidates, edge_pairs);
+    ck_assert_uint_lt(100 * edge_candidates, edge_pairs);
+    ck_assert_uint_gt(fan_pairs, 1000000);
+    ck_assert_uint_lt(20 * fan_candidates, fan_pairs);
     ck_assert_uint_lt(5 * face_candidates, face_pairs);
 }
 END_TEST
