@@ -222,8 +222,8 @@ START_TEST(bad_arguments) {
     desc.format = (vox_io_format)99;
     ck_fails(vox_io_read(&source, 1, &desc, &mesh), VOX_ERROR_INVALID_ARGUMENT, "format");
     desc = good;
-    desc.flags = 2;
-    ck_fails(vox_io_read(&source, 1, &desc, &mesh), VOX_ERROR_INVALID_ARGUMENT, "flags is 0x2");
+    desc.flags = 4;
+    ck_fails(vox_io_read(&source, 1, &desc, &mesh), VOX_ERROR_INVALID_ARGUMENT, "flags is 0x4");
     desc = good;
     desc.format = VOX_IO_FORMAT_TETGEN;
     ck_fails(vox_io_read(&source, 1, &desc, &mesh), VOX_ERROR_INVALID_ARGUMENT, "two sources");

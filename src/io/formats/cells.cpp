@@ -16,7 +16,8 @@ constexpr Faces of_wedge = {{0, 2, 1, none}, {3, 4, 5, none}, {0, 1, 4, 3}, {1, 
 constexpr Faces of_pyramid = {
     {0, 3, 2, 1}, {0, 1, 4, none}, {1, 2, 4, none}, {2, 3, 4, none}, {3, 0, 4, none}};
 
-// Leaves out tets of more than four nodes whose corners lie in one plane: these say nothing of the tet's shape.
+// Leaves out tets of more than four nodes whose corners lie in one plane: these say nothing of the tet's
+// shape.
 void leave_out_flat(MeshData& data) {
     const std::vector<std::uint32_t> high = std::move(data.high_tets);
     auto next = high.begin();
@@ -54,8 +55,8 @@ std::size_t split_cell(CellKind kind, const std::uint32_t* corners, std::uint32_
                          : kind == CellKind::wedge    ? of_wedge
                                                       : of_pyramid;
     const std::size_t face_count = kind == CellKind::hexahedron ? 6 : 5;
-    const auto lowest = static_cast<std::uint8_t>(
-        std::min_element(corners, corners + corner_count(kind)) - corners);
+    const auto lowest =
+        static_cast<std::uint8_t>(std::min_element(corners, corners + corner_count(kind)) - corners);
     std::size_t count = 0;
     for (std::size_t f = 0; f < face_count; ++f) {
         const auto& face = faces[f];
@@ -80,7 +81,8 @@ std::size_t split_cell(CellKind kind, const std::uint32_t* corners, std::uint32_
 
 void Cells::add_tet(const std::uint32_t* corners, std::int32_t region, MeshData& data) const {
     if (data.tets.size() / 4 == VOX_MAX_TETS)
-        throw_error(VOX_ERROR_LIMIT, "%s: more tetrahedra than the limit of %u", file_.name.c_str(), VOX_MAX_TETS);
+        throw_error(VOX_ERROR_LIMIT, "%s: more tetrahedra than the limit of %u", file_.name.c_str(),
+                    VOX_MAX_TETS);
     data.tets.insert(data.tets.end(), corners, corners + 4);
     data.tet_regions.push_back(region);
     data.tet_cells.push_back(static_cast<std::uint32_t>(data.cells));
@@ -144,8 +146,9 @@ MeshData Cells::finished(MeshData data) const {
     if (!data.triangles.empty()) text += format(" (but %zu triangles)", data.triangles.size() / 3);
     for (const std::string& note : data.notes) text.append("; ").append(note);
     if (data.left_out_tets > 0)
-        text += format("; %llu tets of more than four nodes have their corners in one plane",
-                       llu(data.left_out_tets));
+        text +=
+            format("; %llu tet%s of more than four nodes %s in one plane", llu(data.left_out_tets),
+                   s(data.left_out_tets), data.left_out_tets == 1 ? "has its corners" : "have their corners");
     if (could_split_) text += " (they are split into tetrahedra on request: split_cells)";
     throw Error(VOX_ERROR_FORMAT, text);
 }

@@ -10,7 +10,8 @@
 
 namespace vox::io {
 
-// Those before `volume` have their corners first, in VTK's order, and maybe further nodes, which are not used.
+// Those before `volume` have their corners first, in VTK's order, and maybe further nodes, which are not
+// used.
 enum class CellKind : std::uint8_t {
     tet,
     triangle,
@@ -34,7 +35,8 @@ public:
 
     // How many corners of a cell `add` needs; 0 if such cells are skipped.
     std::size_t corners_of(CellKind kind) const noexcept {
-        return kind == CellKind::tet || kind == CellKind::triangle || file_.split_cells ? corner_count(kind) : 0;
+        return kind == CellKind::tet || kind == CellKind::triangle || file_.split_cells ? corner_count(kind)
+                                                                                        : 0;
     }
     // Adds a cell, which has this number of nodes, to `data`.
     void add(CellKind kind, const char* name, std::uint64_t nodes, const std::uint32_t* corners,
@@ -59,10 +61,10 @@ private:
     bool could_split_ = false; // cells that were skipped
 };
 
-// Splits a hexahedron, wedge or pyramid into tets, of its orientation; returns how many. Faces of four corners are
-// split by the diagonal from the lowest corner, so that neighbours agree, and the cell by joining its lowest corner
-// with all faces that it is not on (J. Dompierre et al., "How to subdivide pyramids, prisms, and hexahedra into
-// tetrahedra", 1999). Tets with a corner twice, of collapsed cells, are left out.
+// Splits a hexahedron, wedge or pyramid into tets, of its orientation; returns how many. Faces of four
+// corners are split by the diagonal from the lowest corner, so that neighbours agree, and the cell by joining
+// its lowest corner with all faces that it is not on (J. Dompierre et al., "How to subdivide pyramids,
+// prisms, and hexahedra into tetrahedra", 1999). Tets with a corner twice, of collapsed cells, are left out.
 std::size_t split_cell(CellKind kind, const std::uint32_t* corners, std::uint32_t (&tets)[6][4]);
 
 } // namespace vox::io
