@@ -1,4 +1,5 @@
-/* Hexahedra, wedges and pyramids of a file become tets that fit together, in every format that has such cells. */
+/* Hexahedra, wedges and pyramids of a file become tets that fit together, in every format that has such
+ * cells. */
 #include "scenes/random.h"
 #include "support/io_files.h"
 
@@ -60,8 +61,9 @@ static void add_from_lowest(const uint32_t* v, int as_tets) {
     }
 }
 
-/* A block of cubes with its nodes in any order, and inside off the lattice by `warp`. Columns of cubes are split into
- * wedges, and other cubes are whole, pyramids or tets. The cells are sorted by kind, as some formats need it. */
+/* A block of cubes with its nodes in any order, and inside off the lattice by `warp`. Columns of cubes are
+ * split into wedges, and other cubes are whole, pyramids or tets. The cells are sorted by kind, as some
+ * formats need it. */
 static void make_block(double warp) {
     static uint64_t state = 44;
     uint32_t number[NODES];
@@ -163,7 +165,8 @@ static void put_vtk(void) {
 }
 
 static void put_vtu(void) {
-    put("<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece NumberOfPoints=\"%d\" NumberOfCells=\"%d\">"
+    put("<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece NumberOfPoints=\"%d\" "
+        "NumberOfCells=\"%d\">"
         "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\">",
         NODES, block.count + 1);
     put_points("", " ", " ");
@@ -242,8 +245,10 @@ static double volume_of(const vox_io_mesh_view* view, uint64_t t) {
     double e[3][3];
     for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 3; ++k)
-            e[i][k] = view->positions[3 * tet[i + 1] + (uint32_t)k] - view->positions[3 * tet[0] + (uint32_t)k];
-    return (e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) + e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
+            e[i][k] =
+                view->positions[3 * tet[i + 1] + (uint32_t)k] - view->positions[3 * tet[0] + (uint32_t)k];
+    return (e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
+            e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
             e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0])) /
            6;
 }
@@ -261,7 +266,8 @@ static void check_cells(const vox_io_mesh_view* view, int has_regions, int flat_
         const cell* cell = &block.cells[c];
         for (int i = 0; i < 4; ++i) {
             int found = 0;
-            for (int k = 0; k < corners_of[cell->kind]; ++k) found |= cell->v[k] == view->tets[4 * t + (uint32_t)i];
+            for (int k = 0; k < corners_of[cell->kind]; ++k)
+                found |= cell->v[k] == view->tets[4 * t + (uint32_t)i];
             ck_assert(found);
         }
         filled[c] += volume_of(view, t);
@@ -291,8 +297,8 @@ START_TEST(fit_together) {
         ck_assert_uint_eq(report.non_manifold_facets, 0);
         ck_assert_uint_eq(report.components, 1);
         char words[100];
-        snprintf(words, sizeof words, "%d cells were split into %d tets: hexahedra\n", block.of_kind[HEXAHEDRON],
-                 6 * block.of_kind[HEXAHEDRON]);
+        snprintf(words, sizeof words, "%d cells were split into %d tets: hexahedra\n",
+                 block.of_kind[HEXAHEDRON], 6 * block.of_kind[HEXAHEDRON]);
         ck_assert_msg(strstr(vox_io_mesh_get_warnings(mesh), words) != NULL, "%s: %s", files[f].name,
                       vox_io_mesh_get_warnings(mesh));
         vox_io_mesh_view view, other;
@@ -321,13 +327,43 @@ START_TEST(fit_together) {
 }
 END_TEST
 
+/* The samples of mixed elements, binary ones among them: two triangles, a hexahedron, ten tets. */
+START_TEST(samples) {
+    static const char* const names[] = {"box_1.msh",         "box_22_little.msh", "box_22_big.msh",
+                                        "box_40_little.msh", "box_40_big.msh",    "box_41_little.msh",
+                                        "box_41_big.msh",    "box_30_binary.vtk", "box_51_binary.vtk",
+                                        "box.mesh",          "box.inp",
+#ifdef VOX_TEST_XML
+                                        "box_appended.vtu"
+#endif
+    };
+    static const uint32_t hexahedron[] = {0, 4, 5, 7, 0, 4, 7, 6, 0, 1, 3, 7,
+                                          0, 1, 7, 5, 0, 2, 6, 7, 0, 2, 7, 3};
+    for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
+        const bytes file = read_file(VOX_TEST_DATA, names[i]);
+        vox_io_mesh* mesh = load(names[i], file.data, file.size, VOX_IO_LOAD_SPLIT_CELLS);
+        const vox_io_report report = report_of(mesh);
+        ck_assert_uint_eq(report.tets, 16);
+        ck_assert_uint_eq(report.split_cells, 1);
+        ck_assert(close_to(report.volume, 0.15, 1e-7));
+        vox_io_mesh_view view;
+        ck_ok(vox_io_mesh_get_arrays(mesh, &view));
+        for (uint32_t t = 0; t < 16; ++t) ck_assert_uint_eq(view.tet_cells[t], t < 6 ? 2 : t - 3);
+        ck_assert_mem_eq(view.tets, hexahedron, sizeof hexahedron);
+        vox_io_mesh_destroy(mesh);
+        free(file.data);
+    }
+}
+END_TEST
+
 /* ---- one cell, the unit cube or a part of it, with nodes that are not used or named twice ---- */
 
 #define CUBE "0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1 .5 .5 .5"
 
 static vox_io_mesh* vtk_cell(int type, int nodes, const int* of, uint32_t flags) {
     length = 0;
-    put("# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 9 double\n" CUBE "\nCELLS 2 %d\n"
+    put("# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 9 double\n" CUBE
+        "\nCELLS 2 %d\n"
         "4 0 1 3 4\n%d",
         nodes + 6, nodes);
     for (int i = 0; i < nodes; ++i) put(" %d", of[i]);
@@ -381,12 +417,14 @@ START_TEST(vtk_kinds) {
         snprintf(words, sizeof words, "1 cell has more nodes than corners, which alone were used: %s\n",
                  rows[i].name ? rows[i].name : "");
         const char* const warnings = vox_io_mesh_get_warnings(mesh);
-        ck_assert_msg((strstr(warnings, rows[i].name ? words : "more nodes") != NULL) == (rows[i].name != NULL),
+        ck_assert_msg((strstr(warnings, rows[i].name ? words : "more nodes") != NULL) ==
+                          (rows[i].name != NULL),
                       "type %d: %s", rows[i].type, warnings);
         vox_io_mesh_destroy(mesh);
         mesh = vtk_cell(rows[i].type, rows[i].nodes, nodes, 0);
         ck_assert_uint_eq(report_of(mesh).tets, 1);
-        ck_assert_ptr_nonnull(strstr(vox_io_mesh_get_warnings(mesh), "1 volume element of another kind was left out"));
+        ck_assert_ptr_nonnull(
+            strstr(vox_io_mesh_get_warnings(mesh), "1 volume element of another kind was left out"));
         vox_io_mesh_destroy(mesh);
     }
 }
@@ -397,27 +435,27 @@ START_TEST(collapsed) {
     static const struct {
         int nodes[8];
         double volume;
-    } rows[] = {{{0, 1, 2, 2, 4, 5, 6, 6}, 0.5},
-                {{2, 2, 0, 1, 6, 6, 4, 5}, 0.5},
-                {{6, 5, 4, 4, 2, 1, 0, 0}, 0.5},
-                {{1, 2, 3, 0, 4, 4, 4, 4}, 1.0 / 3},
-                {{4, 4, 4, 4, 3, 2, 1, 0}, 1.0 / 3},
-                {{0, 1, 3, 3, 4, 4, 4, 4}, 1.0 / 6},
+    } rows[] = {{{0, 1, 2, 2, 4, 5, 6, 6}, 0.5},     {{2, 2, 0, 1, 6, 6, 4, 5}, 0.5},
+                {{6, 5, 4, 4, 2, 1, 0, 0}, 0.5},     {{1, 2, 3, 0, 4, 4, 4, 4}, 1.0 / 3},
+                {{4, 4, 4, 4, 3, 2, 1, 0}, 1.0 / 3}, {{0, 1, 3, 3, 4, 4, 4, 4}, 1.0 / 6},
                 {{5, 5, 5, 5, 5, 5, 5, 5}, 0}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
         vox_io_mesh* mesh = vtk_cell(12, 8, rows[i].nodes, VOX_IO_LOAD_SPLIT_CELLS);
         const vox_io_report report = report_of(mesh);
-        ck_assert_msg(close_to(report.volume, rows[i].volume + 1.0 / 6, 1e-12), "%zu: volume %g", i, report.volume);
+        ck_assert_msg(close_to(report.volume, rows[i].volume + 1.0 / 6, 1e-12), "%zu: volume %g", i,
+                      report.volume);
         ck_assert_uint_eq(report.degenerate_tets, 0);
         vox_io_mesh_destroy(mesh);
     }
 }
 END_TEST
 
-#define MEDIT "MeshVersionFormatted 2\nDimension 3\nVertices 8\n"                                           \
+#define MEDIT                                                                                                \
+    "MeshVersionFormatted 2\nDimension 3\nVertices 8\n"                                                      \
     "0 0 0 0 1 0 0 0 1 1 0 0 0 1 0 0 0 0 1 0 1 0 1 0 1 1 1 0 0 1 1 0\n"
 #define GMSH(elements)                                                                                       \
-    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n8\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n"  \
+    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n8\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 "   \
+    "1\n"                                                                                                    \
     "7 1 1 1\n8 0 1 1\n$EndNodes\n$Elements\n" elements "$EndElements\n"
 #define INP "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n"
 #define PART(element) "*PART, NAME=p\n" INP "*ELEMENT, TYPE=T3D2\n1,1,2\n" element "*END PART\n"
@@ -430,23 +468,27 @@ START_TEST(other_formats) {
         const char* words;
     } rows[] = {
         {"a.veg",
-         "*VERTICES\n8 3 0 0\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n*ELEMENTS\n"
+         "*VERTICES\n8 3 0 0\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 "
+         "1\n*ELEMENTS\n"
          "CUBIC\n1 8 0\n1 1 2 3 4 5 6 7 8\n",
          1, 6, "1 cell was split into 6 tets: cubes\n"},
         {"a.msh", GMSH("1\n1 17 2 0 1 1 2 3 4 5 6 7 8 1 1 1 1 1 1 1 1 1 1 1 1\n"), 1, 6,
          "which alone were used: second-order hexahedra"},
-        {"a.msh", GMSH("2\n1 18 2 0 1 1 2 4 5 6 8 1 1 1 1 1 1 1 1 1\n2 13 2 0 1 2 3 4 6 7 8 1 1 1 1 1 1 1 1 1 1 1 1\n"),
+        {"a.msh",
+         GMSH(
+             "2\n1 18 2 0 1 1 2 4 5 6 8 1 1 1 1 1 1 1 1 1\n2 13 2 0 1 2 3 4 6 7 8 1 1 1 1 1 1 1 1 1 1 1 1\n"),
          1, 6, "which alone were used: second-order prisms"},
         {"a.msh", GMSH("1\n1 19 2 0 1 1 2 3 4 5 1 1 1 1 1 1 1 1\n"), 1.0 / 3, 2,
          "1 cell was split into 2 tets: second-order pyramids"},
-        {"a.inp",
-         INP "*ELEMENT, TYPE=C3D20R\n1, 1,2,3,4,5,6,7,8, 1,1,1,1,1,1,1,\n1,1,1,1,1\n", 1, 6,
+        {"a.inp", INP "*ELEMENT, TYPE=C3D20R\n1, 1,2,3,4,5,6,7,8, 1,1,1,1,1,1,1,\n1,1,1,1,1\n", 1, 6,
          "which alone were used: hexahedra"},
-        {"a.inp", INP "*ELEMENT, TYPE=SC8R\n1, 1,2,3,4,5,6,7,8\n", 1, 6, "1 cell was split into 6 tets: hexahedra"},
+        {"a.inp", INP "*ELEMENT, TYPE=SC8R\n1, 1,2,3,4,5,6,7,8\n", 1, 6,
+         "1 cell was split into 6 tets: hexahedra"},
         {"a.inp", INP "*ELEMENT, TYPE=C3D15\n1, 1,2,4,5,6,8, 1,1,1,1,1,1,1,1,1\n", 0.5, 3, "wedges"},
         {"a.inp",
-         PART("*ELEMENT, TYPE=DC3D8\n2, 1,2,3,4,5,6,7,8\n")
-             "*INSTANCE,PART=p\n*END INSTANCE\n*INSTANCE,PART=p\n1.,0.,0.\n*END INSTANCE\n",
+         PART("*ELEMENT, TYPE=DC3D8\n2, 1,2,3,4,5,6,7,8\n") "*INSTANCE,PART=p\n*END "
+                                                            "INSTANCE\n*INSTANCE,PART=p\n1.,0.,0.\n*END "
+                                                            "INSTANCE\n",
          2, 12, "1 cell was split into 6 tets: hexahedra"},
         {"a.mesh",
          MEDIT "HexahedraQ2Ordering 27\n0 0 0 2 0 0 2 2 0 0 2 0 0 0 2 2 0 2 2 2 2 0 2 2\n"
@@ -459,7 +501,9 @@ START_TEST(other_formats) {
                "1 0 0 1 0 0 1 0 0 1 0 0 1 0 0 1 0 0 1 0 0 1 0 0 1 0 0\n"
                "PyramidsP2 1\n1 2 3 4 5 1 1 1 1 1 1 1 1 1 5\nEnd\n",
          1.0 / 3, 2, "pyramids"},
-        {"a.mesh", MEDIT "PrismsP1Ordering 6\n1 0 0 0 0 1 0 0 0 0 1 0 1 0 0 1 0 1 0 1 0 0 1 1\nPrisms 1\n1 2 4 5 6 8 5\nEnd\n",
+        {"a.mesh",
+         MEDIT "PrismsP1Ordering 6\n1 0 0 0 0 1 0 0 0 0 1 0 1 0 0 1 0 1 0 1 0 0 1 1\nPrisms 1\n1 2 4 5 6 8 "
+               "5\nEnd\n",
          0.5, 3, "1 cell was split into 3 tets: prisms\n"}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
         vox_io_mesh* mesh = load(rows[i].name, rows[i].text, strlen(rows[i].text), VOX_IO_LOAD_SPLIT_CELLS);
@@ -479,7 +523,8 @@ START_TEST(other_formats) {
 }
 END_TEST
 
-static void refused(const char* name, const char* data, uint32_t flags, vox_result result, const char* words) {
+static void refused(const char* name, const char* data, uint32_t flags, vox_result result,
+                    const char* words) {
     const vox_io_source source = {name, data, strlen(data)};
     vox_io_load_desc desc = vox_default_io_load_desc();
     desc.flags = flags;
@@ -492,16 +537,19 @@ START_TEST(refusals) {
     const uint32_t split = VOX_IO_LOAD_SPLIT_CELLS;
     static const char hexahedron[] = GMSH("1\n1 5 2 0 1 1 2 3 4 5 6 7 8\n");
     refused("a.msh", hexahedron, 0, VOX_ERROR_FORMAT,
-            "expected tetrahedra, found none; 1 volume element of another kind was left out: hexahedra (they are split "
+            "expected tetrahedra, found none; 1 volume element of another kind was left out: hexahedra (they "
+            "are split "
             "into tetrahedra on request: split_cells)");
-    refused("a.msh", GMSH("1\n1 5 2 0 1 1 2 3 4 5 6 7 9\n"), split, VOX_ERROR_FORMAT, "the number of a node, found 9");
+    refused("a.msh", GMSH("1\n1 5 2 0 1 1 2 3 4 5 6 7 9\n"), split, VOX_ERROR_FORMAT,
+            "the number of a node, found 9");
     refused("a.msh", GMSH("1\n1 5 2 0 1 1 1 1 1 1 1 1 1\n"), split, VOX_ERROR_FORMAT, "found none");
     refused("a.mesh", MEDIT "Hexahedra 1\n1 2 3 4 5 6 7 9 0\nEnd\n", split, VOX_ERROR_FORMAT,
             "expected a vertex number from 1 to 8, found 9");
-    refused("a.mesh", MEDIT "HexahedraQ1Ordering 8\n1 0 0 0 0 0 1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1\nEnd\n", split,
-            VOX_ERROR_UNSUPPORTED, "HexahedraQ1Ordering: elements are read whose corners come first");
+    refused("a.mesh", MEDIT "HexahedraQ1Ordering 8\n1 0 0 0 0 0 1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1\nEnd\n",
+            split, VOX_ERROR_UNSUPPORTED, "HexahedraQ1Ordering: elements are read whose corners come first");
     length = 0;
-    put("# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 9 double\n" CUBE "\nCELLS 1 8\n"
+    put("# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 9 double\n" CUBE
+        "\nCELLS 1 8\n"
         "7 0 1 2 3 4 5 6\nCELL_TYPES 1\n12\n");
     refused("a.vtk", text, split, VOX_ERROR_FORMAT, "cell 0: expected 8 points (hexahedra), found 7");
 }
@@ -511,8 +559,8 @@ END_TEST
 
 #define FLAT "1 tet has more than four nodes but its corners in one plane, and was left out\n"
 #define VTK_FLAT(nodes, more, type)                                                                          \
-    "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 9 double\n" CUBE "\nCELLS 2 " more  \
-    "\n4 0 1 3 4\n" nodes " 0 1 2 3 4 4 4 4 4 4\nCELL_TYPES 2\n10\n" type "\n"
+    "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 9 double\n" CUBE                \
+    "\nCELLS 2 " more "\n4 0 1 3 4\n" nodes " 0 1 2 3 4 4 4 4 4 4\nCELL_TYPES 2\n10\n" type "\n"
 
 START_TEST(flat_corners) {
     static const struct {
@@ -557,6 +605,7 @@ END_TEST
 SUITE(io_cells) {
     TCase* tests = add_case(suite, "cells");
     tcase_add_loop_test(tests, fit_together, 0, 8);
+    tcase_add_test(tests, samples);
     tcase_add_test(tests, vtk_kinds);
     tcase_add_test(tests, collapsed);
     tcase_add_test(tests, other_formats);
