@@ -127,12 +127,29 @@ void count_components(const MeshData& data, vox_io_report& report) {
     }
 }
 
+struct Corners {
+    Corners(const MeshData& data, const Index* tet) {
+        for (int i = 0; i < 4; ++i) p[i] = &data.positions[3 * static_cast<std::size_t>(tet[i])];
+    }
+    const double* p[4];
+};
+
+// The error bound of orientation() holds for coordinates below 2^128.
+int volume_sign(const double* const (&p)[4]) {
+    bool bounded = true;
+    for (const double* corner : p)
+        for (int k = 0; k < 3; ++k) bounded = bounded && std::fabs(corner[k]) < 0x1p128;
+    const auto at = [&](int i) { return Vec3d{p[i][0], p[i][1], p[i][2]}; };
+    std::uint64_t exact_tests = 0;
+    return bounded ? orientation(at(0), at(1), at(2), at(3), exact_tests)
+                   : exact_orientation(at(0), at(1), at(2), at(3));
+}
+
 void measure_tets(const MeshData& data, vox_io_report& report) {
     for (std::size_t t = 0; t < data.tets.size(); t += 4) {
-        const double* p[4];
-        for (std::size_t i = 0; i < 4; ++i)
-            p[i] = &data.positions[3 * static_cast<std::size_t>(data.tets[t + i])];
-        const int sign = volume_sign(data, t / 4);
+        const Corners corners(data, &data.tets[t]);
+        const auto& p = corners.p;
+        const int sign = volume_sign(p);
         report.inverted_tets += sign < 0;
         report.degenerate_tets += sign == 0;
         if (sign == 0) continue;
@@ -184,19 +201,7 @@ std::string counted(std::uint64_t number, const char* singular, const char* plur
 
 } // namespace
 
-// The error bound of orientation() holds for coordinates below 2^128.
-int volume_sign(const MeshData& data, std::size_t tet) {
-    Vec3d p[4];
-    bool bounded = true;
-    for (std::size_t i = 0; i < 4; ++i) {
-        const double* const x = &data.positions[3 * static_cast<std::size_t>(data.tets[4 * tet + i])];
-        p[i] = {x[0], x[1], x[2]};
-        for (int k = 0; k < 3; ++k) bounded = bounded && std::fabs(x[k]) < 0x1p128;
-    }
-    std::uint64_t exact_tests = 0;
-    return bounded ? orientation(p[0], p[1], p[2], p[3], exact_tests)
-                   : exact_orientation(p[0], p[1], p[2], p[3]);
-}
+int volume_sign(const MeshData& data, const std::uint32_t* tet) { return volume_sign(Corners(data, tet).p); }
 
 vox_io_report diagnose(const MeshData& data, const Progress& progress) {
     vox_io_report report{};

@@ -34,7 +34,7 @@ using MeshHandle = std::unique_ptr<vox_io_mesh, DestroyMesh>;
 // Finds what is odd about a mesh, as numbers and as text (diagnosis.cpp).
 vox_io_report diagnose(const MeshData& data, const Progress& progress);
 // The exact sign of a tet's volume, over the whole range of finite doubles.
-int volume_sign(const MeshData& data, std::size_t tet);
+int volume_sign(const MeshData& data, const std::uint32_t* tet);
 // One line for everything in the report that a user should know; "" if there is nothing.
 std::string warnings_of(const MeshData& data, const vox_io_report& report);
 

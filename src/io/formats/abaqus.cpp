@@ -243,7 +243,7 @@ private:
 
     // Appends a placed part. As instances repeat parts, there may be no more nodes than a surface of the
     // file's size has, and twice as many tets, of which a hexahedron is six.
-    void append(const MeshData& part, const Placement& placement, MeshData& data) {
+    void append(MeshData& part, const Placement& placement, MeshData& data) {
         const std::size_t first = data.positions.size() / 3;
         const std::uint64_t limit = std::min<std::uint64_t>(max_count, file_.bytes.size() / 6 + (1u << 17));
         if (first + part.positions.size() / 3 > limit || (data.tets.size() + part.tets.size()) / 8 > limit)
@@ -260,12 +260,13 @@ private:
                             std::vector<std::uint32_t>& to) {
             for (const std::uint32_t number : from) to.push_back(static_cast<std::uint32_t>(before + number));
         };
+        number_cells(data, data.tets.size() / 4);
+        number_cells(part, part.tets.size() / 4);
         add(part.high_tets, data.tets.size() / 4, data.high_tets);
         add(part.tets, first, data.tets);
         add(part.triangles, first, data.triangles);
         add(part.tet_cells, static_cast<std::size_t>(data.cells), data.tet_cells);
         data.cells += part.cells;
-        data.tet_regions.resize(data.tets.size() / 4);
     }
 
     [[noreturn]] void too_many(const char* what, std::uint64_t limit = max_count) const {

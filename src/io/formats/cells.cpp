@@ -21,22 +21,23 @@ constexpr Faces of_pyramid = {
 void leave_out_flat(MeshData& data) {
     const std::vector<std::uint32_t> high = std::move(data.high_tets);
     auto next = high.begin();
+    number_cells(data, data.tets.size() / 4);
     std::size_t to = 0;
     for (std::size_t t = 0; t < data.tets.size() / 4; ++t) {
         const bool is_high = next != high.end() && *next == t;
         if (is_high) {
             ++next;
-            if (volume_sign(data, t) == 0) continue;
+            if (volume_sign(data, &data.tets[4 * t]) == 0) continue;
         }
         data.second_order_tets += is_high;
         std::copy_n(&data.tets[4 * t], 4, &data.tets[4 * to]);
-        data.tet_regions[to] = data.tet_regions[t];
+        if (!data.tet_regions.empty()) data.tet_regions[to] = data.tet_regions[t];
         data.tet_cells[to] = data.tet_cells[t];
         ++to;
     }
     data.left_out_tets = data.tets.size() / 4 - to;
     data.tets.resize(4 * to);
-    data.tet_regions.resize(to);
+    if (!data.tet_regions.empty()) data.tet_regions.resize(to);
     data.tet_cells.resize(to);
 }
 
@@ -49,6 +50,11 @@ void drop(std::vector<Number>& array) {
 const char* s(std::uint64_t number) { return number == 1 ? "" : "s"; }
 
 } // namespace
+
+void number_cells(MeshData& data, std::size_t tets) {
+    for (std::size_t t = data.tet_cells.size(); t < tets; ++t)
+        data.tet_cells.push_back(static_cast<std::uint32_t>(t));
+}
 
 std::size_t split_cell(CellKind kind, const std::uint32_t* corners, std::uint32_t (&tets)[6][4]) {
     const Faces& faces = kind == CellKind::hexahedron ? of_hexahedron
@@ -80,12 +86,20 @@ std::size_t split_cell(CellKind kind, const std::uint32_t* corners, std::uint32_
 }
 
 void Cells::add_tet(const std::uint32_t* corners, std::int32_t region, MeshData& data) const {
-    if (data.tets.size() / 4 == VOX_MAX_TETS)
+    const std::size_t tet = data.tets.size() / 4;
+    if (tet == VOX_MAX_TETS)
         throw_error(VOX_ERROR_LIMIT, "%s: more tetrahedra than the limit of %u", file_.name.c_str(),
                     VOX_MAX_TETS);
-    data.tets.insert(data.tets.end(), corners, corners + 4);
-    data.tet_regions.push_back(region);
-    data.tet_cells.push_back(static_cast<std::uint32_t>(data.cells));
+    for (int i = 0; i < 4; ++i) data.tets.push_back(corners[i]); // faster than insert
+    // Most files of tets alone need no numbers.
+    if (region != 0 || !data.tet_regions.empty()) {
+        data.tet_regions.resize(tet);
+        data.tet_regions.push_back(region);
+    }
+    if (data.cells != tet || !data.tet_cells.empty()) {
+        number_cells(data, tet);
+        data.tet_cells.push_back(static_cast<std::uint32_t>(data.cells));
+    }
 }
 
 void Cells::add(CellKind kind, const char* name, std::uint64_t nodes, const std::uint32_t* corners,

@@ -61,6 +61,9 @@ private:
     bool could_split_ = false; // cells that were skipped
 };
 
+// Writes the numbers of the cells of so many tets where they are their own, and so not written yet.
+void number_cells(MeshData& data, std::size_t tets);
+
 // Splits a hexahedron, wedge or pyramid into tets, of its orientation; returns how many. Faces of four
 // corners are split by the diagonal from the lowest corner, so that neighbours agree, and the cell by joining
 // its lowest corner with all faces that it is not on (J. Dompierre et al., "How to subdivide pyramids,
