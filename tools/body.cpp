@@ -45,6 +45,7 @@ Loaded load_mesh(const std::string& path, const Reading& reading) {
     };
     desc.progress_user = &progress;
     if (reading.keep_unused) desc.flags |= VOX_IO_LOAD_KEEP_UNUSED;
+    if (reading.split_cells) desc.flags |= VOX_IO_LOAD_SPLIT_CELLS;
     Loaded loaded;
     loaded.report.struct_size = sizeof loaded.report;
     vox_io_mesh* read = nullptr;

@@ -41,6 +41,7 @@ struct Reading {
     bool fill_surfaces = false;
     double cell = 0;
     bool keep_unused = false; // vertices that belong to no tetrahedron
+    bool split_cells = false; // hexahedra, wedges and pyramids
 };
 
 // What load_mesh finds.

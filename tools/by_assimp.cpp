@@ -202,8 +202,8 @@ Mesh load_by_assimp(const std::string& path, const std::string& refused, vox_io_
     std::vector<std::uint32_t> triangles(3 * answer.triangles);
     child.get(positions.data(), 24 * answer.vertices);
     child.get(triangles.data(), 12 * answer.triangles);
-    const vox_io_mesh_view arrays{positions.data(), answer.vertices,  nullptr, 0,
-                                  triangles.data(), answer.triangles, nullptr, nullptr};
+    const vox_io_mesh_view arrays{positions.data(), answer.vertices, nullptr, 0,      triangles.data(),
+                                  answer.triangles, nullptr,         nullptr, nullptr};
     vox_io_mesh* mesh = nullptr;
     check(vox_io_mesh_create(&arrays, &mesh));
     report = answer.report;

@@ -223,8 +223,15 @@ void write_surface(const Checked& checked, const std::string& path) {
         }
     for (const Overlap& overlap : checked.overlaps)
         for (const std::size_t t : {overlap.first, overlap.second}) of_triangle[t] += 1;
-    const vox_io_mesh_view arrays{checked.surface.positions.data(), of_vertex.size(), nullptr, 0,
-                                  triangles.front().data(),         triangles.size(), nullptr, nullptr};
+    const vox_io_mesh_view arrays{checked.surface.positions.data(),
+                                  of_vertex.size(),
+                                  nullptr,
+                                  0,
+                                  triangles.front().data(),
+                                  triangles.size(),
+                                  nullptr,
+                                  nullptr,
+                                  nullptr};
     vox_io_mesh* made = nullptr;
     check(vox_io_mesh_create(&arrays, &made));
     const Mesh mesh(made);
@@ -271,7 +278,7 @@ void add_check(CommandLine& line) {
     command
         .option("-o,--output", options->out, "Write the surface and its crossings to this file, .vtu or .msh")
         .shown_as("FILE");
-    add_keep_unused(command, options->reading);
+    add_what_is_read(command, options->reading);
     command.flag("--json", options->json, "Print one JSON object");
     command.examples("  vox check cloth.obj\n  vox check skin.stl -o crossings.vtu");
     command.runs([options] { run_check(*options); });

@@ -171,8 +171,9 @@ void run_collide(const CollideOptions& options) {
     require_inside(bodies);
     Body before;
     if (!options.moving.empty())
-        before = load_body(options.moving, {.keep_doubles = options.keep_doubles},
-                           {.keep_unused = options.reading.keep_unused});
+        before = load_body(
+            options.moving, {.keep_doubles = options.keep_doubles},
+            {.keep_unused = options.reading.keep_unused, .split_cells = options.reading.split_cells});
     std::vector<vox_body> ids;
     GridOptions settings = options.grid;
     vox_grid_desc desc = settings.grid_desc();

@@ -88,6 +88,7 @@ void print_info(const Info& info) {
     std::printf("  %-18s %s\n", "format", vox_io_format_string(report.format));
     print_count("vertices", report.vertices);
     print_count("tetrahedra", report.tets);
+    if (report.split_cells > 0) print_count("split cells", report.split_cells);
     if (info.regions > 1) print_count("regions", info.regions);
     print_count("surface triangles", report.boundary_facets);
     print_count("components", report.components);
@@ -125,7 +126,7 @@ void add_info(CommandLine& line) {
     const auto options = std::make_shared<InfoOptions>();
     Command command = line.add("info", "Show what is in a mesh file");
     command.option("MESH", options->files, "Mesh files").required();
-    add_keep_unused(command, options->reading);
+    add_what_is_read(command, options->reading);
     command.flag("--json", options->json, "Print one JSON object");
     command.examples("  vox info bunny.msh\n  vox info *.msh --json");
     command.runs([options] { run_info(*options); });

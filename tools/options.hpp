@@ -56,14 +56,16 @@ inline void add_cells(Command& command, GridOptions& grid) {
     command.choice("--hash", grid.hash, hashes, "Hash of a cell, for hashed storage");
 }
 
-inline void add_keep_unused(Command& command, Reading& reading) {
+inline void add_what_is_read(Command& command, Reading& reading) {
     command.flag("--keep-unused", reading.keep_unused,
                  "Keep vertices that belong to no tetrahedron; they collide like others");
+    command.flag("--split-cells", reading.split_cells,
+                 "Split hexahedra, wedges and pyramids into tetrahedra; otherwise they are left out");
 }
 
 // Adds the options of commands that need tetrahedra but may get surfaces.
 inline void add_reading(Command& command, Reading& reading) {
-    add_keep_unused(command, reading);
+    add_what_is_read(command, reading);
     const Option flag = command.flag("--fill", reading.fill_surfaces, "Fill surfaces with tetrahedra first");
     command
         .option("--fill-cell", reading.cell,

@@ -133,7 +133,7 @@ private:
         const std::uint32_t vertices[4] = {x.edge[0], x.edge[1], x.tip, y.tip};
         for (std::size_t i = 0; i < 4; ++i) std::copy_n(at(vertices[i]), 3, corners + 3 * i);
         const std::uint32_t tet[4] = {0, 1, 2, 3};
-        const vox_io_mesh_view arrays{corners, 4, tet, 1, nullptr, 0, nullptr, nullptr};
+        const vox_io_mesh_view arrays{corners, 4, tet, 1, nullptr, 0, nullptr, nullptr, nullptr};
         vox_io_mesh* made = nullptr;
         check(vox_io_mesh_create(&arrays, &made));
         const Mesh mesh(made);

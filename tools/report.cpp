@@ -136,6 +136,8 @@ void add_report(Json& json, const vox_io_report& report, const std::vector<std::
         {"unused_vertices", report.unused_vertices},
         {"left_out_vertices", report.left_out_vertices},
         {"left_out_triangles", report.left_out_triangles},
+        {"left_out_tets", report.left_out_tets},
+        {"split_cells", report.split_cells},
         {"non_manifold_facets", report.non_manifold_facets},
         {"open_edges", report.open_edges},
         {"misoriented_edges", report.misoriented_edges},

@@ -103,7 +103,8 @@ void write_results(const std::string& path, std::span<const DrawnMesh> meshes, c
                                                      data("contacts", cells.contacts)};
 
     const vox_io_mesh_view arrays{positions.data(), positions.size() / 3, tets.data(), tets.size() / 4,
-                                  triangles.data(), triangles.size() / 3, nullptr,     nullptr};
+                                  triangles.data(), triangles.size() / 3, nullptr,     nullptr,
+                                  nullptr};
     vox_io_mesh* made = nullptr;
     check(vox_io_mesh_create(&arrays, &made));
     const Mesh mesh(made);

@@ -108,7 +108,7 @@ static void write_frame(const scene* s, const char* folder, int frame) {
         vertices += view.vertex_count;
         tet_count += view.tet_count;
     }
-    const vox_io_mesh_view all = {positions, vertices, tets, tet_count, NULL, 0, NULL, NULL};
+    const vox_io_mesh_view all = {positions, vertices, tets, tet_count, NULL, 0, NULL, NULL, NULL};
     const vox_io_point_data body = {"body", body_of_vertex, 1, 0};
     vox_io_mesh* mesh;
     must(vox_io_mesh_create(&all, &mesh));

@@ -2,7 +2,8 @@
  *
  * The conventions of vox.h hold here too: vox_result, vox_last_error(), struct_size, untouched
  * out-parameters on failure. Positions are double and in the file's order. In a file with tets, vertices that belong
- * to no tet are left out: geometry points, nodes on edges of ten-node tets, corners of elements that are skipped. The
+ * to no tet are left out: geometry points, nodes on edges of ten-node tets, corners of elements that are skipped. So
+ * are tets of ten or more nodes whose corners lie in one plane. The
  * vertices of a surface are merged if their positions are equal, and numbered in order of first use. The caller owns
  * every mesh that a function here creates and releases it with vox_io_mesh_destroy.
  *
@@ -48,7 +49,11 @@ typedef enum vox_io_format {
 typedef enum vox_io_load_flags {
     /* Keep vertices that belong to no tet, and triangles that name one. A vertex then has the file's number. In a
      * grid such vertices collide like all others. */
-    VOX_IO_LOAD_KEEP_UNUSED = 1
+    VOX_IO_LOAD_KEEP_UNUSED = 1,
+    /* Split hexahedra, wedges (prisms) and pyramids into tets. Otherwise these are left out, with a warning. A face of
+     * four corners is split by the diagonal from its corner that comes first in the file, so that neighbours fit
+     * together. Only corners are used, of cells of higher order, too. Each tet has the region of its cell. */
+    VOX_IO_LOAD_SPLIT_CELLS = 2
 } vox_io_load_flags;
 
 typedef struct vox_io_load_desc {
@@ -112,6 +117,9 @@ typedef struct vox_io_mesh_view {
     /* For each vertex its number in the file, counted from 0 in the file's order, ascending; null if vertices were not
      * left out. Values for vertex v belong to vertex file_vertices[v] of the file. */
     VOX_OPTIONAL const uint32_t* file_vertices;
+    /* For each tet the number of its cell in the file, counted from 0 in the file's order through cells of every kind,
+     * ascending; null if tet t is cell t. Instances of a part in an Abaqus file count one after the other. */
+    VOX_OPTIONAL const uint32_t* tet_cells;
 } vox_io_mesh_view;
 
 /* The mesh's arrays. */
@@ -159,6 +167,8 @@ typedef struct vox_io_report {
     double unit_in_metres;         /* length of the file's unit; 0 if the file does not state it */
     uint64_t left_out_vertices;    /* vertices of the file that belong to no tet and are not in the mesh */
     uint64_t left_out_triangles;   /* triangles of the file that name one of them and are not in the mesh */
+    uint64_t split_cells;          /* hexahedra, wedges and pyramids of the file that were split into tets */
+    uint64_t left_out_tets;        /* tets of ten or more nodes whose corners lie in one plane, exactly */
 } vox_io_report;
 
 /* Writes the fields that out_report->struct_size covers (set it first). */

@@ -59,7 +59,8 @@ public:
         const vox_io_mesh_view v = arrays();
         return {v.triangles, static_cast<std::size_t>(3 * v.triangle_count)};
     }
-    // A number for each tetrahedron, and for each vertex its number in the file; empty where the view has null.
+    // A number for each tetrahedron, and for each vertex and tetrahedron its number in the file; empty where the view
+    // has null.
     span<const std::int32_t> tet_regions() const& noexcept {
         const vox_io_mesh_view v = arrays();
         return {v.tet_regions, static_cast<std::size_t>(v.tet_regions ? v.tet_count : 0)};
@@ -68,7 +69,12 @@ public:
         const vox_io_mesh_view v = arrays();
         return {v.file_vertices, static_cast<std::size_t>(v.file_vertices ? v.vertex_count : 0)};
     }
+    span<const std::uint32_t> tet_cells() const& noexcept {
+        const vox_io_mesh_view v = arrays();
+        return {v.tet_cells, static_cast<std::size_t>(v.tet_cells ? v.tet_count : 0)};
+    }
     void tet_regions() const&& = delete;
+    void tet_cells() const&& = delete;
     void file_vertices() const&& = delete;
     void positions() const&& = delete;
     void tets() const&& = delete;

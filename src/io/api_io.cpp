@@ -17,7 +17,7 @@ vox_io_load_desc checked(const vox_io_load_desc* in) {
     const vox_io_load_desc desc = read_struct(in, "vox_io_load_desc");
     check_enum(desc.format, VOX_IO_FORMAT_ABAQUS, "vox_io_load_desc.format");
     check_allocator(desc.allocator, "vox_io_load_desc.allocator");
-    if ((desc.flags & ~std::uint32_t{VOX_IO_LOAD_KEEP_UNUSED}) != 0)
+    if ((desc.flags & ~std::uint32_t{VOX_IO_LOAD_KEEP_UNUSED | VOX_IO_LOAD_SPLIT_CELLS}) != 0)
         refuse(format("vox_io_load_desc.flags is 0x%x, expected vox_io_load_flags", desc.flags));
     return desc;
 }
@@ -69,6 +69,7 @@ MeshData load(const std::string& path, const vox_io_load_desc& desc, const Progr
     const FileBytes bytes(path);
     File file = bytes.file();
     file.progress = progress;
+    file.split_cells = (desc.flags & VOX_IO_LOAD_SPLIT_CELLS) != 0;
     refuse_other_content(file);
     const vox_io_format which = format_of(file, desc.format);
     if (which != VOX_IO_FORMAT_TETGEN) return read_one(file, folder_of(path), which, desc.mesh - 1);
@@ -94,6 +95,7 @@ MeshData read(const vox_io_source* sources, std::size_t count, const vox_io_load
     require(sources, "sources");
     File first = file_of(sources[0], 0);
     first.progress = progress;
+    first.split_cells = (desc.flags & VOX_IO_LOAD_SPLIT_CELLS) != 0;
     refuse_other_content(first);
     if (count == 1) {
         const vox_io_format which = format_of(first, desc.format);
@@ -145,6 +147,7 @@ MeshData checked(const vox_io_mesh_view& arrays) {
     MeshData data;
     if (arrays.tet_regions)
         data.tet_regions.assign(arrays.tet_regions, arrays.tet_regions + arrays.tet_count);
+    if (arrays.tet_cells) data.tet_cells.assign(arrays.tet_cells, arrays.tet_cells + arrays.tet_count);
     if (arrays.file_vertices)
         data.file_vertices.assign(arrays.file_vertices, arrays.file_vertices + arrays.vertex_count);
     if (arrays.vertex_count)

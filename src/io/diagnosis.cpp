@@ -127,7 +127,13 @@ void count_components(const MeshData& data, vox_io_report& report) {
     }
 }
 
-// The exact sign of the volume of a tetrahedron with these corners, over the whole range of finite doubles.
+struct Corners {
+    Corners(const MeshData& data, const Index* tet) {
+        for (int i = 0; i < 4; ++i) p[i] = &data.positions[3 * static_cast<std::size_t>(tet[i])];
+    }
+    const double* p[4];
+};
+
 // The error bound of orientation() holds for coordinates below 2^128.
 int volume_sign(const double* const (&p)[4]) {
     bool bounded = true;
@@ -141,9 +147,8 @@ int volume_sign(const double* const (&p)[4]) {
 
 void measure_tets(const MeshData& data, vox_io_report& report) {
     for (std::size_t t = 0; t < data.tets.size(); t += 4) {
-        const double* p[4];
-        for (std::size_t i = 0; i < 4; ++i)
-            p[i] = &data.positions[3 * static_cast<std::size_t>(data.tets[t + i])];
+        const Corners corners(data, &data.tets[t]);
+        const auto& p = corners.p;
         const int sign = volume_sign(p);
         report.inverted_tets += sign < 0;
         report.degenerate_tets += sign == 0;
@@ -196,6 +201,8 @@ std::string counted(std::uint64_t number, const char* singular, const char* plur
 
 } // namespace
 
+int volume_sign(const MeshData& data, const std::uint32_t* tet) { return volume_sign(Corners(data, tet).p); }
+
 vox_io_report diagnose(const MeshData& data, const Progress& progress) {
     vox_io_report report{};
     report.struct_size = sizeof report;
@@ -205,6 +212,8 @@ vox_io_report diagnose(const MeshData& data, const Progress& progress) {
     report.triangles = data.triangles.size() / 3;
     report.skipped_elements = data.skipped_elements;
     report.second_order_tets = data.second_order_tets;
+    report.split_cells = data.split_cells;
+    report.left_out_tets = data.left_out_tets;
     report.unit_in_metres = data.unit_in_metres;
     report.left_out_vertices = data.left_out_vertices;
     report.left_out_triangles = data.left_out_triangles;
@@ -243,6 +252,8 @@ std::string warnings_of(const MeshData& data, const vox_io_report& r) {
            "vertices belong to no tet and were left out");
     say_if(r.left_out_triangles, "triangle has such a vertex and was left out",
            "triangles have such a vertex and were left out");
+    say_if(r.left_out_tets, "tet has more than four nodes but its corners in one plane, and was left out",
+           "tets have more than four nodes but their corners in one plane, and were left out");
     say_if(r.second_order_tets, "tet has more than four nodes; only its corners were used",
            "tets have more than four nodes; only their corners were used");
     if (r.inverted_tets > 0 && r.inverted_tets == r.tets)

@@ -31,6 +31,7 @@ vox_io_mesh* make_mesh(MeshData data, const vox_allocator* allocator, const Prog
         mesh->tets = moved(own.tets, &mesh->memory);
         mesh->triangles = moved(own.triangles, &mesh->memory);
         mesh->file_vertices = moved(own.file_vertices, &mesh->memory);
+        mesh->tet_cells = moved(own.tet_cells, &mesh->memory);
         mesh->tet_regions = moved(own.tet_regions, &mesh->memory);
         mesh->view = view_of(*mesh);
     }

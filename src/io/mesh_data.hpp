@@ -17,12 +17,15 @@ struct MeshData {
     std::vector<std::uint32_t> tets;          // 4 a tet
     std::vector<std::uint32_t> triangles;     // 3 a triangle
     std::vector<std::int32_t> tet_regions;    // 1 a tet, or none
+    std::vector<std::uint32_t> tet_cells;     // 1 a tet, or none: tet t is cell t of the file
     std::vector<std::uint32_t> file_vertices; // 1 a vertex, or none: as in the file
     std::uint64_t skipped_elements = 0;
-    std::uint64_t second_order_tets = 0;
+    std::uint64_t second_order_tets = 0, left_out_tets = 0, split_cells = 0;
     std::uint64_t left_out_vertices = 0, left_out_triangles = 0;
-    double unit_in_metres = 0;      // 0: unknown
-    std::vector<std::string> notes; // lines for the warnings, from the reader
+    std::uint64_t cells = 0;              // of the file so far, of any kind
+    std::vector<std::uint32_t> high_tets; // of more than four nodes, until all cells are read
+    double unit_in_metres = 0;            // 0: unknown
+    std::vector<std::string> notes;       // lines for the warnings, from the reader
 };
 
 constexpr std::uint32_t all_meshes = ~std::uint32_t{0}; // as a mesh_index; vox_io_load_desc.mesh is one more
@@ -37,7 +40,8 @@ vox_io_mesh_view view_of(const Arrays& of) {
             of.triangles.data(),
             of.triangles.size() / 3,
             of.tet_regions.empty() ? nullptr : of.tet_regions.data(),
-            of.file_vertices.empty() ? nullptr : of.file_vertices.data()};
+            of.file_vertices.empty() ? nullptr : of.file_vertices.data(),
+            of.tet_cells.empty() ? nullptr : of.tet_cells.data()};
 }
 
 // Makes the public object, with report and warnings, from data whose positions are finite and whose indices

@@ -89,6 +89,7 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     }
     vox_io_load_desc desc = vox_default_io_load_desc();
     desc.format = format;
+    desc.flags = size % 2 ? VOX_IO_LOAD_SPLIT_CELLS : 0;
     vox_io_mesh* mesh = NULL;
     const vox_result result = vox_io_read(sources, count, &desc, &mesh);
     if (result == VOX_OK) {

@@ -10,8 +10,8 @@
 
 static vox_io_mesh* made(const double* positions, uint64_t vertices, const uint32_t* tets, uint64_t tet_count,
                          const uint32_t* triangles, uint64_t triangle_count) {
-    const vox_io_mesh_view arrays = {positions, vertices,       tets, tet_count,
-                                     triangles, triangle_count, NULL, NULL};
+    const vox_io_mesh_view arrays = {positions,      vertices, tets, tet_count, triangles,
+                                     triangle_count, NULL,     NULL, NULL};
     vox_io_mesh* mesh = NULL;
     ck_ok(vox_io_mesh_create(&arrays, &mesh));
     check_sound(mesh);
@@ -222,8 +222,8 @@ START_TEST(bad_arguments) {
     desc.format = (vox_io_format)99;
     ck_fails(vox_io_read(&source, 1, &desc, &mesh), VOX_ERROR_INVALID_ARGUMENT, "format");
     desc = good;
-    desc.flags = 2;
-    ck_fails(vox_io_read(&source, 1, &desc, &mesh), VOX_ERROR_INVALID_ARGUMENT, "flags is 0x2");
+    desc.flags = 4;
+    ck_fails(vox_io_read(&source, 1, &desc, &mesh), VOX_ERROR_INVALID_ARGUMENT, "flags is 0x4");
     desc = good;
     desc.format = VOX_IO_FORMAT_TETGEN;
     ck_fails(vox_io_read(&source, 1, &desc, &mesh), VOX_ERROR_INVALID_ARGUMENT, "two sources");
@@ -232,7 +232,7 @@ START_TEST(bad_arguments) {
     ck_fails(vox_io_read(two, 2, &desc, &mesh), VOX_ERROR_INVALID_ARGUMENT, "source_count");
 
     ck_fails(vox_io_mesh_get_arrays(NULL, NULL), VOX_ERROR_INVALID_ARGUMENT, "mesh");
-    vox_io_mesh_view view = {corner, 4, NULL, 0, NULL, 0, NULL, NULL};
+    vox_io_mesh_view view = {corner, 4, NULL, 0, NULL, 0, NULL, NULL, NULL};
     ck_fails(vox_io_mesh_create(NULL, &mesh), VOX_ERROR_INVALID_ARGUMENT, "arrays");
     ck_fails(vox_io_mesh_create(&view, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_mesh");
     view.positions = NULL;

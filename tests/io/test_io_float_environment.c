@@ -37,7 +37,7 @@ static record results(const float_mode* mode) {
     const vox_io_sink sink = {keep, &r};
     static const double corners[12] = {0.1, 0.2, 0.3, 1.7, 0, 0.1, 0, 1.3, 0.2, 0.1, 0.4, 1.9};
     static const uint32_t facets[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
-    const vox_io_mesh_view surface = {corners, 4, NULL, 0, facets, 4, NULL, NULL};
+    const vox_io_mesh_view surface = {corners, 4, NULL, 0, facets, 4, NULL, NULL, NULL};
     vox_io_mesh* meshes[5];
     vox_io_write_desc desc;
     vox_io_load_desc load;

@@ -68,10 +68,12 @@ static vox_result attack(const char* name, const unsigned char* data, size_t siz
         other = read_file(FOLDER, partner);
     }
     const vox_io_source sources[2] = {{name, copy, size}, {partner, other.data, other.size}};
+    vox_io_load_desc desc = vox_default_io_load_desc();
+    desc.flags = size % 2 ? VOX_IO_LOAD_SPLIT_CELLS : 0;
     vox_io_mesh* mesh = NULL;
     heap_begin();
     const double start = seconds();
-    const vox_result result = vox_io_read(sources, partner ? 2 : 1, NULL, &mesh);
+    const vox_result result = vox_io_read(sources, partner ? 2 : 1, &desc, &mesh);
     const double taken = seconds() - start;
     const size_t heap = heap_peak(), fair = 16 * (size + other.size);
     if (taken > slowest) slowest = taken;

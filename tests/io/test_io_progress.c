@@ -84,7 +84,7 @@ static void write_tets(file* f, vox_io_write_format format, uint32_t binary) {
     for (int v = 0; v < vertex_count; ++v)
         for (int axis = 0; axis < 3; ++axis) positions[3 * v + axis] = coordinate(v, axis);
     for (int t = 0; t < 4 * tet_count; ++t) tets[t] = (uint32_t)(t / 4 + t % 4);
-    const vox_io_mesh_view view = {positions, vertex_count, tets, tet_count, NULL, 0, NULL, NULL};
+    const vox_io_mesh_view view = {positions, vertex_count, tets, tet_count, NULL, 0, NULL, NULL, NULL};
     const vox_io_sink sink = {add_piece, f};
     vox_io_mesh* mesh = NULL;
     vox_io_write_desc desc;

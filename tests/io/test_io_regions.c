@@ -127,7 +127,7 @@ START_TEST(written_regions) {
     static const double positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1};
     static const uint32_t tets[] = {0, 1, 2, 3, 4, 1, 2, 3, 0, 1, 2, 3, 4, 1, 2, 3}, triangle[] = {0, 1, 2};
     static const int32_t regions[] = {40, -2, 0, 40};
-    const vox_io_mesh_view arrays = {positions, 5, tets, 4, triangle, (uint64_t)_i % 2, regions, NULL};
+    const vox_io_mesh_view arrays = {positions, 5, tets, 4, triangle, (uint64_t)_i % 2, regions, NULL, NULL};
     vox_io_mesh *mesh = NULL, *again = NULL;
     ck_ok(vox_io_mesh_create(&arrays, &mesh));
     vox_io_write_desc desc = vox_default_io_write_desc();
@@ -154,7 +154,7 @@ START_TEST(own_cell_data) {
     static const double positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, own[] = {5};
     static const uint32_t tet[] = {0, 1, 2, 3};
     static const int32_t regions[] = {3};
-    const vox_io_mesh_view arrays = {positions, 4, tet, 1, NULL, 0, regions, NULL};
+    const vox_io_mesh_view arrays = {positions, 4, tet, 1, NULL, 0, regions, NULL, NULL};
     const vox_io_point_data data = {"region", own, 1, 0};
     vox_io_mesh *mesh = NULL, *again = NULL;
     ck_ok(vox_io_mesh_create(&arrays, &mesh));

@@ -153,7 +153,7 @@ START_TEST(whole_meshes) {
 
     static const double points[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 7, 7, 7};
     static const uint32_t tet[] = {0, 1, 2, 3};
-    const vox_io_mesh_view arrays = {points, 5, tet, 1, NULL, 0, NULL, NULL};
+    const vox_io_mesh_view arrays = {points, 5, tet, 1, NULL, 0, NULL, NULL, NULL};
     ck_ok(vox_io_mesh_create(&arrays, &mesh));
     ck_assert_uint_eq(report_of(mesh).vertices, 5);
     vox_io_mesh_destroy(mesh);

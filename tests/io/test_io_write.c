@@ -44,8 +44,8 @@ static bytes written(const vox_io_mesh* mesh, const vox_io_write_desc* desc) {
 
 static vox_io_mesh* made(const double* positions, uint64_t vertices, const uint32_t* tets, uint64_t tet_count,
                          const uint32_t* triangles, uint64_t triangle_count) {
-    const vox_io_mesh_view arrays = {positions, vertices,       tets, tet_count,
-                                     triangles, triangle_count, NULL, NULL};
+    const vox_io_mesh_view arrays = {positions,      vertices, tets, tet_count, triangles,
+                                     triangle_count, NULL,     NULL, NULL};
     vox_io_mesh* mesh = NULL;
     ck_ok(vox_io_mesh_create(&arrays, &mesh));
     return mesh;

@@ -159,7 +159,8 @@ static vox_io_mesh* turned_surface(int body) {
         }
     }
     const vox_io_mesh_view arrays = {positions, (profile_points + 1) * turns, NULL, 0,
-                                     triangles, 2 * profile_points * turns,   NULL, NULL};
+                                     triangles, 2 * profile_points * turns,   NULL, NULL,
+                                     NULL};
     vox_io_mesh* surface = NULL;
     ck_ok(vox_io_mesh_create(&arrays, &surface));
     return surface;

@@ -71,7 +71,7 @@ static void add_sphere(double x, double y, double z, double r, int rings, int in
 }
 
 static vox_io_mesh* made(void) {
-    vox_io_mesh_view view = {s.positions, 0, NULL, 0, s.triangles, 0, NULL, NULL};
+    vox_io_mesh_view view = {s.positions, 0, NULL, 0, s.triangles, 0, NULL, NULL, NULL};
     vox_io_mesh* mesh = NULL;
     view.vertex_count = s.vertices;
     view.triangle_count = s.count;

@@ -95,6 +95,19 @@ class OddFiles(Files):
         info = run_json("info", self.mixed)["meshes"][0]
         self.assertEqual((info["vertices"], info["unused_vertices"], info["left_out_vertices"]), (4, 0, 4))
 
+    def test_split_cells(self):
+        info = run("info", self.mixed, "--split-cells").stdout
+        self.assertIn(b"  tetrahedra         4\n  split cells        1\n", info)
+        self.assertIn(b"  warning: 1 cell was split into 3 tets: prisms\n", info)
+        self.assertNotIn(b"left out: prisms", info)
+        mesh = run_json("info", self.mixed, "--split-cells")["meshes"][0]
+        self.assertEqual((mesh["vertices"], mesh["tets"], mesh["split_cells"], mesh["left_out_tets"]), (6, 4, 1, 0))
+        self.assertEqual(run_json("info", self.mixed)["meshes"][0]["split_cells"], 0)
+        report = run_json("collide", self.mixed, self.other, "--split-cells")["meshes"][0]["report"]
+        self.assertEqual((report["tets"], report["skipped_elements"]), (4, 1))
+        flat = self.write("flat.mesh", OTHER.replace("End", "TetrahedraP2\n1\n1 2 3 1 4 4 4 4 4 4 0\nEnd"))
+        self.assertEqual((run_json("info", flat)["meshes"][0]["left_out_tets"]), 1)
+
     def test_regions(self):
         self.assertEqual(run_json("info", self.mixed)["meshes"][0]["regions"], 1)
         self.assertEqual(run_json("info", self.other)["meshes"][0]["regions"], 0)

@@ -194,6 +194,18 @@ namespace Voxtet
             }
         }
 
+        /// <summary>For each tetrahedron the number of its cell in the file; null where that is its own.</summary>
+        public uint[] GetTetCells()
+        {
+            using (var use = handle.Read())
+            {
+                IoMeshView view;
+                VoxException.Check(Native.vox_io_mesh_get_arrays(use.Pointer, &view));
+                if (view.tet_cells == null) return null;
+                return new ReadOnlySpan<uint>(view.tet_cells, checked((int)view.tet_count)).ToArray();
+            }
+        }
+
         /// <summary>What was read, and what is odd about it.</summary>
         public IoReport Report
         {

@@ -373,6 +373,8 @@ namespace Voxtet
     {
         /// <summary>Keep vertices that belong to no tet, and triangles that name one.</summary>
         KeepUnused = 1,
+        /// <summary>Split hexahedra, wedges (prisms) and pyramids into tets.</summary>
+        SplitCells = 2,
     }
 
     public enum IoSolidKind : int
@@ -1548,10 +1550,13 @@ namespace Voxtet
         /// <summary>For each vertex its number in the file, counted from 0 in the file's order, ascending; null if
         /// vertices were not left out.</summary>
         public uint* file_vertices;
+        /// <summary>For each tet the number of its cell in the file, counted from 0 in the file's order through cells
+        /// of every kind, ascending; null if tet t is cell t.</summary>
+        public uint* tet_cells;
     }
 
     /// <summary>What was read, what was left out, and what is odd about the mesh.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 224)]
+    [StructLayout(LayoutKind.Sequential, Size = 240)]
     public struct IoReport
     {
         public uint struct_size;
@@ -1600,6 +1605,10 @@ namespace Voxtet
         public ulong left_out_vertices;
         /// <summary>triangles of the file that name one of them and are not in the mesh</summary>
         public ulong left_out_triangles;
+        /// <summary>hexahedra, wedges and pyramids of the file that were split into tets</summary>
+        public ulong split_cells;
+        /// <summary>tets of ten or more nodes whose corners lie in one plane, exactly</summary>
+        public ulong left_out_tets;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -3177,7 +3186,7 @@ namespace Voxtet
         {
             IoMeshView s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_io_mesh_view", sizeof(IoMeshView), 64, 56));
+            entries.Add(Entry("vox_io_mesh_view", sizeof(IoMeshView), 72, 64));
             entries.Add(Entry("vox_io_mesh_view.positions", (byte*)&s.positions - begin, 0, 0));
             entries.Add(Entry("vox_io_mesh_view.vertex_count", (byte*)&s.vertex_count - begin, 8, 8));
             entries.Add(Entry("vox_io_mesh_view.tets", (byte*)&s.tets - begin, 16, 16));
@@ -3186,13 +3195,14 @@ namespace Voxtet
             entries.Add(Entry("vox_io_mesh_view.triangle_count", (byte*)&s.triangle_count - begin, 40, 40));
             entries.Add(Entry("vox_io_mesh_view.tet_regions", (byte*)&s.tet_regions - begin, 48, 48));
             entries.Add(Entry("vox_io_mesh_view.file_vertices", (byte*)&s.file_vertices - begin, 56, 52));
+            entries.Add(Entry("vox_io_mesh_view.tet_cells", (byte*)&s.tet_cells - begin, 64, 56));
         }
 
         static void AddIoReport(List<LayoutEntry> entries)
         {
             IoReport s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_io_report", sizeof(IoReport), 224, 224));
+            entries.Add(Entry("vox_io_report", sizeof(IoReport), 240, 240));
             entries.Add(Entry("vox_io_report.struct_size", (byte*)&s.struct_size - begin, 0, 0));
             entries.Add(Entry("vox_io_report.format", (byte*)&s.format - begin, 4, 4));
             entries.Add(Entry("vox_io_report.vertices", (byte*)&s.vertices - begin, 8, 8));
@@ -3218,6 +3228,8 @@ namespace Voxtet
             entries.Add(Entry("vox_io_report.unit_in_metres", (byte*)&s.unit_in_metres - begin, 200, 200));
             entries.Add(Entry("vox_io_report.left_out_vertices", (byte*)&s.left_out_vertices - begin, 208, 208));
             entries.Add(Entry("vox_io_report.left_out_triangles", (byte*)&s.left_out_triangles - begin, 216, 216));
+            entries.Add(Entry("vox_io_report.split_cells", (byte*)&s.split_cells - begin, 224, 224));
+            entries.Add(Entry("vox_io_report.left_out_tets", (byte*)&s.left_out_tets - begin, 232, 232));
         }
 
         static void AddIoTetrahedralizeDesc(List<LayoutEntry> entries)

@@ -4,6 +4,7 @@ import gc
 import os
 import pickle
 import tempfile
+import types
 import unittest
 import unittest.mock
 
@@ -161,6 +162,28 @@ class Files(unittest.TestCase):
             self.assertEqual((len(data.positions), len(data.triangles), data.file_vertices), (6, 1, None))
         with self.assertRaises(TypeError):
             voxtet.io.load(path, keep_unused=1)
+
+    def test_cells(self):
+        """Hexahedra of a file are split as those of meshio are, on request; each tet knows its cell."""
+        points = "".join(f"{x} {y} {z} 0\n" for z in (0, 1) for y in (0, 1) for x in (0, 1, 2))
+        text = (f"MeshVersionFormatted 2\nDimension 3\nVertices\n12\n{points}Hexahedra\n1\n1 2 5 4 7 8 11 10 3\n"
+                "Prisms\n1\n2 3 5 8 9 11 4\nEnd\n").encode()
+        with self.assertRaisesRegex(voxtet.FormatError, "split_cells"):
+            voxtet.io.read(text, "a.mesh")
+        with self.assertWarnsRegex(voxtet.MeshWarning, "1 cell was split into 6 tets: hexahedra; 1 cell was split into 3 tets: prisms"):
+            data = voxtet.io.read(text, "a.mesh", split_cells=True)
+        self.assertEqual((data.cells.tolist(), data.regions.tolist()), ([0] * 6 + [1] * 3, [3] * 6 + [4] * 3))
+        self.assertEqual((data.report.split_cells, data.report.boundary_facets, data.report.left_out_tets), (2, 16, 0))
+        self.assertAlmostEqual(data.report.volume, 1.5)
+        again = pickle.loads(pickle.dumps(data))
+        np.testing.assert_array_equal(again.cells, data.cells)
+
+        mesh = types.SimpleNamespace(points=np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1, 2)], float), cells_dict={
+            "hexahedron": np.array([[0, 1, 4, 3, 6, 7, 10, 9]]), "wedge": np.array([[1, 2, 4, 7, 8, 10]])})  # as meshio's
+        with self.assertWarns(voxtet.MeshWarning):
+            other = voxtet.io.from_meshio(mesh)
+        np.testing.assert_array_equal(other.tets, data.tets)
+        np.testing.assert_array_equal(other.cells, data.cells)
 
     def test_regions(self):
         with self.assertWarns(voxtet.MeshWarning):

@@ -22,22 +22,21 @@ std::string upper_case(std::string_view text) {
 
 struct ElementKind {
     CellKind cell;
-    int nodes; // 0 for elements that are left out
+    int nodes; // 0 for elements that are always left out
     const char* name;
 };
 
 // DC3D4, C3D10M and others of heat, sound and hybrid or modified formulation have letters before and behind.
 ElementKind kind_of(const std::string& type) {
-    const std::size_t solid = type.find("C3D");
+    const std::size_t solid = type.find("C3D"), shell = type.starts_with("SC") ? 2 : std::string::npos;
+    const std::size_t digits = solid != std::string::npos ? solid + 3 : shell; // continuum shells: SC8R
     int nodes = 0;
-    if (solid != std::string::npos)
-        std::from_chars(type.data() + solid + 3, type.data() + type.size(), nodes);
-    if (nodes == 4) return {CellKind::tet, 4, ""};
-    if (nodes == 10) return {CellKind::high_tet, 10, ""};
-    if (nodes == 5 || nodes == 13) return {CellKind::volume, 0, "pyramids"};
-    if (nodes == 6 || nodes == 15) return {CellKind::volume, 0, "wedges"};
-    if (nodes == 8 || nodes == 20 || nodes == 27) return {CellKind::volume, 0, "hexahedra"};
-    if (nodes > 0 || type.starts_with("SC") || type.starts_with("COH3D"))
+    if (digits != std::string::npos) std::from_chars(type.data() + digits, type.data() + type.size(), nodes);
+    if (nodes == 4 || nodes == 10) return {CellKind::tet, nodes, ""};
+    if (nodes == 5 || nodes == 13) return {CellKind::pyramid, nodes, "pyramids"};
+    if (nodes == 6 || nodes == 15) return {CellKind::wedge, nodes, "wedges"};
+    if (nodes == 8 || nodes == 20 || nodes == 27) return {CellKind::hexahedron, nodes, "hexahedra"};
+    if (digits != std::string::npos || type.starts_with("COH3D"))
         return {CellKind::volume, 0, "elements of other types"};
     for (const std::string_view prefix : {"STRI", "SFM3D", "DS", "M3D", "R3D", "CPS", "CPE", "S"}) {
         if (!type.starts_with(prefix)) continue;
@@ -64,7 +63,9 @@ struct Instance {
 
 class AbaqusReader {
 public:
-    explicit AbaqusReader(const File& file) : file_(file), in_(file, 0, ',') { parts_.emplace_back(); }
+    explicit AbaqusReader(const File& file) : file_(file), in_(file, 0, ','), cells_(file) {
+        parts_.emplace_back();
+    }
 
     // Nodes first, as elements may precede them.
     MeshData read() {
@@ -83,7 +84,7 @@ public:
             if (!instance.of.empty()) append(found->data, instance.placement, data);
         }
         data.notes = std::move(notes_);
-        return finished(std::move(data), skipped_, file_.name);
+        return cells_.finished(std::move(data));
     }
 
 private:
@@ -216,36 +217,36 @@ private:
 
     void read_elements(const ElementKind& kind) {
         Part& part = parts_[part_];
-        if (kind.nodes == 0) {
+        const std::size_t wanted = cells_.corners_of(kind.cell);
+        if (wanted == 0) {
             std::uint64_t count = 0;
             for (bool continued = false; next_data(); in_.skip_line()) {
                 count += !continued;
                 const std::string_view rest = in_.rest(), line = rest.substr(0, rest.find_first_of("\r\n"));
                 continued = line.substr(0, line.find_last_not_of(" \t") + 1).ends_with(',');
             }
-            return skipped_.add(kind.cell, kind.name, count);
+            return cells_.skip(kind.cell, kind.name, count, part.data);
         }
-        const bool triangles = kind.cell == CellKind::triangle;
-        std::vector<std::uint32_t>& corners = triangles ? part.data.triangles : part.data.tets;
         while (next_data()) {
             in_.integer<std::int64_t>("an element number");
-            for (int i = 0; i < kind.nodes; ++i) {
+            std::uint32_t corners[most_corners];
+            for (std::size_t i = 0; i < static_cast<std::size_t>(kind.nodes); ++i) {
                 in_.accept_separator();
                 if (in_.at_line_end() && !next_data()) in_.expected("a node number");
                 const auto number = in_.integer<std::int64_t>("a node number");
-                if (i < (triangles ? 3 : 4)) corners.push_back(part.numbers.vertex_of(number, in_));
+                if (i < wanted) corners[i] = part.numbers.vertex_of(number, in_);
             }
             in_.skip_line();
-            part.data.second_order_tets += kind.cell == CellKind::high_tet;
+            cells_.add(kind.cell, kind.name, static_cast<std::uint64_t>(kind.nodes), corners, 0, part.data);
         }
     }
 
-    // Appends a placed part. As instances repeat parts, there may be no more than a surface of the file's
-    // size has.
-    void append(const MeshData& part, const Placement& placement, MeshData& data) {
+    // Appends a placed part. As instances repeat parts, there may be no more nodes than a surface of the
+    // file's size has, and twice as many tets, of which a hexahedron is six.
+    void append(MeshData& part, const Placement& placement, MeshData& data) {
         const std::size_t first = data.positions.size() / 3;
         const std::uint64_t limit = std::min<std::uint64_t>(max_count, file_.bytes.size() / 6 + (1u << 17));
-        if (first + part.positions.size() / 3 > limit || (data.tets.size() + part.tets.size()) / 4 > limit)
+        if (first + part.positions.size() / 3 > limit || (data.tets.size() + part.tets.size()) / 8 > limit)
             too_many("nodes or tetrahedra", limit);
         for (std::size_t i = 0; i < part.positions.size(); i += 3) {
             double p[3];
@@ -255,10 +256,17 @@ private:
                             file_.name.c_str());
             data.positions.insert(data.positions.end(), p, p + 3);
         }
-        for (const std::uint32_t v : part.tets) data.tets.push_back(static_cast<std::uint32_t>(first + v));
-        for (const std::uint32_t v : part.triangles)
-            data.triangles.push_back(static_cast<std::uint32_t>(first + v));
-        data.second_order_tets += part.second_order_tets;
+        const auto add = [](const std::vector<std::uint32_t>& from, std::size_t before,
+                            std::vector<std::uint32_t>& to) {
+            for (const std::uint32_t number : from) to.push_back(static_cast<std::uint32_t>(before + number));
+        };
+        number_cells(data, data.tets.size() / 4);
+        number_cells(part, part.tets.size() / 4);
+        add(part.high_tets, data.tets.size() / 4, data.high_tets);
+        add(part.tets, first, data.tets);
+        add(part.triangles, first, data.triangles);
+        add(part.tet_cells, static_cast<std::size_t>(data.cells), data.tet_cells);
+        data.cells += part.cells;
     }
 
     [[noreturn]] void too_many(const char* what, std::uint64_t limit = max_count) const {
@@ -271,7 +279,7 @@ private:
     std::deque<Part> parts_; // the first: what is in none
     std::vector<Instance> instances_;
     std::size_t part_ = 0, next_part_ = 1, assembly_ = 0; // at hand, next to begin, around instances
-    Skipped skipped_;
+    Cells cells_;
     std::vector<std::string> notes_;
 };
 

@@ -154,30 +154,4 @@ void refuse_other_content(const File& file) {
         if (text.starts_with(html)) refuse("expected a mesh, found a web page");
 }
 
-void Skipped::add(CellKind cell, const char* name, std::uint64_t number) {
-    elements += number;
-    if (cell != CellKind::volume) return;
-    const auto is_it = [&](const auto& kind) { return kind.first == name; };
-    const auto found = std::find_if(volumes.begin(), volumes.end(), is_it);
-    if (found != volumes.end())
-        found->second += number;
-    else
-        volumes.emplace_back(name, number);
-}
-
-MeshData finished(MeshData data, const Skipped& skipped, const std::string& name) {
-    data.skipped_elements += skipped.elements;
-    for (const auto& [kind, number] : skipped.volumes)
-        data.notes.push_back(format("%llu volume element%s of another kind %s left out: %s", llu(number),
-                                    number == 1 ? "" : "s", number == 1 ? "was" : "were", kind.c_str()));
-    if (!data.tet_regions.empty()) data.tet_regions.resize(data.tets.size() / 4); // where a file has no more
-    if (std::count(data.tet_regions.begin(), data.tet_regions.end(), 0) == std::ssize(data.tet_regions))
-        data.tet_regions = std::vector<std::int32_t>(); // `= {}` would keep its room
-    if (!data.tets.empty()) return data;
-    std::string text = format("%s: expected tetrahedra, found none", name.c_str());
-    if (!data.triangles.empty()) text += format(" (but %zu triangles)", data.triangles.size() / 3);
-    for (const std::string& note : data.notes) text.append("; ").append(note);
-    throw Error(VOX_ERROR_FORMAT, text);
-}
-
 } // namespace vox::io

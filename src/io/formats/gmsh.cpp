@@ -25,28 +25,28 @@ struct MoreTypes {
 ElementType more_element_type(std::int64_t type) {
     using enum CellKind;
     static constexpr MoreTypes more[] = {
-        {32, 2, high_tet, "tetrahedra of higher order", {22, 28}},
+        {32, 2, tet, "tetrahedra of higher order", {22, 28}},
         {36, 6, other, "quadrangles of higher order", {16, 25, 36, 12, 16, 20}},
         {42, 5, triangle, "triangles of higher order", {28, 36, 45, 55, 66}},
         {47, 5, other, "quadrangles of higher order", {49, 64, 81, 100, 121}},
         {52, 5, triangle, "triangles of higher order", {18, 21, 24, 27, 30}},
         {57, 5, other, "quadrangles of higher order", {24, 28, 32, 36, 40}},
         {62, 5, other, "lines of higher order", {7, 8, 9, 10, 11}},
-        {71, 5, high_tet, "tetrahedra of higher order", {84, 120, 165, 220, 286}},
-        {79, 5, high_tet, "tetrahedra of higher order", {34, 40, 46, 52, 58}},
+        {71, 5, tet, "tetrahedra of higher order", {84, 120, 165, 220, 286}},
+        {79, 5, tet, "tetrahedra of higher order", {34, 40, 46, 52, 58}},
         {84, 3, other, "elements of one node", {1, 1, 1}},
         {87, 3, volume, "elements of one node", {1, 1, 1}},
-        {90, 2, volume, "prisms of higher order", {40, 75}},
-        {92, 7, volume, "hexahedra of higher order", {64, 125, 216, 343, 512, 729, 1000}},
-        {99, 7, volume, "hexahedra of higher order", {32, 44, 56, 68, 80, 92, 104}},
-        {106, 5, volume, "prisms of higher order", {126, 196, 288, 405, 550}},
-        {111, 7, volume, "prisms of higher order", {24, 33, 42, 51, 60, 69, 78}},
-        {118, 7, volume, "pyramids of higher order", {30, 55, 91, 140, 204, 285, 385}},
-        {125, 7, volume, "pyramids of higher order", {21, 29, 37, 45, 53, 61, 69}},
+        {90, 2, wedge, "prisms of higher order", {40, 75}},
+        {92, 7, hexahedron, "hexahedra of higher order", {64, 125, 216, 343, 512, 729, 1000}},
+        {99, 7, hexahedron, "hexahedra of higher order", {32, 44, 56, 68, 80, 92, 104}},
+        {106, 5, wedge, "prisms of higher order", {126, 196, 288, 405, 550}},
+        {111, 7, wedge, "prisms of higher order", {24, 33, 42, 51, 60, 69, 78}},
+        {118, 7, pyramid, "pyramids of higher order", {30, 55, 91, 140, 204, 285, 385}},
+        {125, 7, pyramid, "pyramids of higher order", {21, 29, 37, 45, 53, 61, 69}},
         {132, 1, volume, "elements of one node", {1}},
-        {137, 1, high_tet, "tetrahedra of higher order", {16}},
+        {137, 1, tet, "tetrahedra of higher order", {16}},
         {138, 1, triangle, "triangles of higher order", {4}},
-        {139, 1, high_tet, "tetrahedra of higher order", {5}},
+        {139, 1, tet, "tetrahedra of higher order", {5}},
         {140, 1, volume, "trihedra", {4}}};
     for (const MoreTypes& types : more)
         if (type >= types.first && type < types.first + types.count)
@@ -62,21 +62,21 @@ ElementType element_type(std::int64_t type) {
                                             {3, triangle, "triangles"},
                                             {4, other, "quadrangles"},
                                             {4, tet, "tetrahedra"},
-                                            {8, volume, "hexahedra"},
-                                            {6, volume, "prisms"},
-                                            {5, volume, "pyramids"},
+                                            {8, hexahedron, "hexahedra"},
+                                            {6, wedge, "prisms"},
+                                            {5, pyramid, "pyramids"},
                                             {3, other, "second-order lines"},
                                             {6, triangle, "second-order triangles"},
                                             {9, other, "second-order quadrangles"},
-                                            {10, high_tet, "second-order tetrahedra"},
-                                            {27, volume, "second-order hexahedra"},
-                                            {18, volume, "second-order prisms"},
-                                            {14, volume, "second-order pyramids"},
+                                            {10, tet, "second-order tetrahedra"},
+                                            {27, hexahedron, "second-order hexahedra"},
+                                            {18, wedge, "second-order prisms"},
+                                            {14, pyramid, "second-order pyramids"},
                                             {1, other, "points"},
                                             {8, other, "second-order quadrangles"},
-                                            {20, volume, "second-order hexahedra"},
-                                            {15, volume, "second-order prisms"},
-                                            {13, volume, "second-order pyramids"},
+                                            {20, hexahedron, "second-order hexahedra"},
+                                            {15, wedge, "second-order prisms"},
+                                            {13, pyramid, "second-order pyramids"},
                                             {9, triangle, "third-order triangles"},
                                             {10, triangle, "third-order triangles"},
                                             {12, triangle, "fourth-order triangles"},
@@ -86,15 +86,15 @@ ElementType element_type(std::int64_t type) {
                                             {4, other, "third-order edges"},
                                             {5, other, "fourth-order edges"},
                                             {6, other, "fifth-order edges"},
-                                            {20, high_tet, "third-order tetrahedra"},
-                                            {35, high_tet, "fourth-order tetrahedra"},
-                                            {56, high_tet, "fifth-order tetrahedra"}};
+                                            {20, tet, "third-order tetrahedra"},
+                                            {35, tet, "fourth-order tetrahedra"},
+                                            {56, tet, "fifth-order tetrahedra"}};
     return type > 0 && type < 32 ? types[type] : more_element_type(type);
 }
 
 class GmshReader {
 public:
-    explicit GmshReader(const File& file) : file_(file), in_(file) {}
+    explicit GmshReader(const File& file) : file_(file), in_(file), cells_(file) {}
 
     MeshData read() {
         std::size_t elements_at = 0; // where an $Elements section begins that precedes the nodes
@@ -141,7 +141,7 @@ public:
                 const auto group = groups_.find(region);
                 region = group == groups_.end() ? 0 : group->second;
             }
-        return finished(std::move(data_), skipped_, file_.name);
+        return cells_.finished(std::move(data_));
     }
 
 private:
@@ -326,15 +326,18 @@ private:
     }
 
     void text_nodes(const ElementType& type) {
-        std::vector<std::uint32_t>* const corners = corners_of(type, 1);
-        const int wanted = type.cell == CellKind::triangle ? 3 : 4;
-        if (!corners) return in_.skip_line();
-        if (corners == &data_.tets) data_.tet_regions.push_back(region_);
-        for (int i = 0; i < type.nodes; ++i) {
+        const std::size_t wanted = cells_.corners_of(type.cell);
+        if (wanted == 0) {
+            cells_.skip(type.cell, type.name, 1, data_);
+            return in_.skip_line();
+        }
+        std::uint32_t corners[most_corners];
+        for (std::size_t i = 0; i < type.nodes; ++i) {
             const auto number = in_.integer<std::int64_t>("a node number");
-            if (i < wanted) corners->push_back(numbers_.vertex_of(number, in_));
+            if (i < wanted) corners[i] = numbers_.vertex_of(number, in_);
         }
         in_.line_end();
+        cells_.add(type.cell, type.name, type.nodes, corners, region_, data_);
     }
 
     // A block of version 2 begins with the type, the number of elements and the number of tags; then come
@@ -359,20 +362,21 @@ private:
         if (count > in_.remaining() / size)
             in_.fail("expected %llu elements of %zu bytes, but only %zu bytes follow", llu(count), size,
                      in_.remaining());
-        std::vector<std::uint32_t>* const corners = corners_of(type, count);
-        if (!corners) {
+        const std::size_t wanted = cells_.corners_of(type.cell);
+        if (wanted == 0) {
+            cells_.skip(type.cell, type.name, count, data_);
             in_.take(count * size, "elements");
             return;
         }
-        const std::size_t wanted = type.cell == CellKind::triangle ? 3 : 4;
         for (std::uint64_t e = 0; e < count; ++e) {
             const char* const element = in_.take(size, "an element");
             const char* const nodes = element + before;
             if (version_ < 40) region_ = before > 4 ? load<std::int32_t>(element + 4, swap_) : 0;
-            if (corners == &data_.tets) data_.tet_regions.push_back(region_);
+            std::uint32_t corners[most_corners];
             for (std::size_t i = 0; i < wanted; ++i)
-                corners->push_back(numbers_.vertex_of(
-                    static_cast<std::int64_t>(load<Integer>(nodes + i * sizeof(Integer), swap_)), in_));
+                corners[i] = numbers_.vertex_of(
+                    static_cast<std::int64_t>(load<Integer>(nodes + i * sizeof(Integer), swap_)), in_);
+            cells_.add(type.cell, type.name, type.nodes, corners, region_, data_);
         }
     }
 
@@ -392,7 +396,7 @@ private:
                 in_.fail("expected %llu elements in all, found a block of %llu after %llu", llu(total),
                          llu(count), llu(done));
             done += count;
-            if (type.cell == CellKind::tet || type.cell == CellKind::high_tet) {
+            if (type.cell == CellKind::tet) {
                 const std::size_t line = binary_ ? 20 : 9; // at least
                 const std::size_t need =
                     data_.tets.size() + 4 * std::min<std::uint64_t>(count, in_.remaining() / line);
@@ -468,20 +472,11 @@ private:
         return type;
     }
 
-    // Counts `count` elements of a type and returns where their corners go, or null if they are left out.
-    std::vector<std::uint32_t>* corners_of(const ElementType& type, std::uint64_t count) {
-        if (type.cell == CellKind::high_tet) data_.second_order_tets += count;
-        if (type.cell == CellKind::tet || type.cell == CellKind::high_tet) return &data_.tets;
-        if (type.cell == CellKind::triangle) return &data_.triangles;
-        skipped_.add(type.cell, type.name, count);
-        return nullptr;
-    }
-
     const File& file_;
     Scanner in_;
     MeshData data_;
     NodeNumbers numbers_;
-    Skipped skipped_;
+    Cells cells_;
     std::int32_t region_ = 0;                     // of the element at hand
     std::map<std::int64_t, std::int32_t> groups_; // by the entity
     int version_ = 0;                             // times ten

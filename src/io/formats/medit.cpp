@@ -22,10 +22,10 @@ constexpr Section sections[] = {
     {"Triangles", CellKind::triangle, "triangles", [](Order p) { return (p + 1) * (p + 2) / 2; }},
     {"Edges", CellKind::other, "edges", [](Order p) { return p + 1; }},
     {"Quadrilaterals", CellKind::other, "quadrilaterals", [](Order p) { return (p + 1) * (p + 1); }},
-    {"Hexahedra", CellKind::volume, "hexahedra", [](Order p) { return (p + 1) * (p + 1) * (p + 1); }},
-    {"Hexaedra", CellKind::volume, "hexahedra", [](Order p) { return (p + 1) * (p + 1) * (p + 1); }},
-    {"Prisms", CellKind::volume, "prisms", [](Order p) { return (p + 1) * (p + 1) * (p + 2) / 2; }},
-    {"Pyramids", CellKind::volume, "pyramids", [](Order p) { return (p + 1) * (p + 2) * (2 * p + 3) / 6; }}};
+    {"Hexahedra", CellKind::hexahedron, "hexahedra", [](Order p) { return (p + 1) * (p + 1) * (p + 1); }},
+    {"Hexaedra", CellKind::hexahedron, "hexahedra", [](Order p) { return (p + 1) * (p + 1) * (p + 1); }},
+    {"Prisms", CellKind::wedge, "prisms", [](Order p) { return (p + 1) * (p + 1) * (p + 2) / 2; }},
+    {"Pyramids", CellKind::pyramid, "pyramids", [](Order p) { return (p + 1) * (p + 2) * (2 * p + 3) / 6; }}};
 
 // The elements that follow a keyword: Tetrahedra, TetrahedraP2, HexahedraQ3 (libMeshb, gmf). `behind` is what
 // follows that, as in TetrahedraP2Ordering.
@@ -40,7 +40,6 @@ std::optional<Section> section_of(std::string_view keyword, std::string_view& be
             if (error != std::errc{} || section.order < 1 || section.order > most) return std::nullopt;
             behind = {stop, static_cast<std::size_t>(end - stop)};
         }
-        if (section.cell == CellKind::tet && section.order > 1) section.cell = CellKind::high_tet;
         return section;
     }
     return std::nullopt;
@@ -52,7 +51,7 @@ bool is_keyword(std::string_view word) {
 
 class MeditReader {
 public:
-    explicit MeditReader(const File& file) : file_(file), in_(file, '#') {}
+    explicit MeditReader(const File& file) : in_(file, '#'), cells_(file) {}
 
     MeshData read() {
         in_.skip_space();
@@ -72,7 +71,7 @@ public:
         if (highest_at_ > 0 && highest_ >= vertices)
             in_.fail_at(highest_at_, "expected a vertex number from 1 to %zu, found %llu", vertices,
                         llu(highest_) + 1);
-        return finished(std::move(data_), skipped_, file_.name);
+        return cells_.finished(std::move(data_));
     }
 
 private:
@@ -93,7 +92,7 @@ private:
             read_vertices();
         } else if (section && behind.empty()) {
             read_elements(*section);
-        } else if (section && behind == "Ordering" && corners_of(section->cell)) {
+        } else if (section && behind == "Ordering" && cells_.corners_of(section->cell)) {
             check_ordering(*section, keyword);
         } else {
             // Corners, Ridges, Normals and others hold numbers up to the next keyword.
@@ -116,54 +115,76 @@ private:
         }
     }
 
-    // How many corners of an element are read.
-    static std::uint64_t corners_of(CellKind cell) {
-        return cell == CellKind::triangle ? 3 : cell == CellKind::tet || cell == CellKind::high_tet ? 4 : 0;
-    }
-
-    // The barycentric coordinates of the nodes of an element, in the file's order, times the order of the
-    // element.
+    // The coordinates of the nodes of an element, in the file's order, times the order of the element:
+    // barycentric ones, of a prism its triangle's and the height, of a hexahedron or pyramid Cartesian ones.
     void check_ordering(const Section& section, const std::string& keyword) {
-        const std::uint64_t nodes = section.nodes(section.order), corners = corners_of(section.cell);
-        const auto count = in_.count("number of nodes", 2 * corners, max_count);
+        static constexpr std::string_view all_corners[] = {"1000"
+                                                           "0100"
+                                                           "0010"
+                                                           "0001",
+                                                           "100"
+                                                           "010"
+                                                           "001",
+                                                           "000"
+                                                           "100"
+                                                           "110"
+                                                           "010"
+                                                           "001"
+                                                           "101"
+                                                           "111"
+                                                           "011",
+                                                           "1000"
+                                                           "0100"
+                                                           "0010"
+                                                           "1001"
+                                                           "0101"
+                                                           "0011",
+                                                           "000"
+                                                           "100"
+                                                           "110"
+                                                           "010"
+                                                           "??1"};
+        const std::string_view corners = all_corners[static_cast<std::size_t>(section.cell)];
+        const std::uint64_t nodes = section.nodes(section.order);
+        const std::uint64_t coordinates = corners.size() / corner_count(section.cell);
+        const auto count = in_.count("number of nodes", 2 * static_cast<std::size_t>(coordinates), max_count);
         if (count != nodes) in_.fail("expected %llu nodes, found %llu", llu(nodes), llu(count));
-        for (std::uint64_t i = 0; i < nodes; ++i)
-            for (std::uint64_t k = 0; k < corners; ++k) {
-                const auto coordinate = integer<std::int64_t>("a barycentric coordinate");
-                if (i < corners && coordinate != (i == k ? static_cast<std::int64_t>(section.order) : 0))
-                    in_.unsupported("%s: elements are read whose corners come first", keyword.c_str());
-            }
+        for (std::uint64_t i = 0; i < nodes * coordinates; ++i) {
+            const auto found = integer<std::int64_t>("a coordinate of a node");
+            if (i >= corners.size() || corners[i] == '?') continue;
+            if (found != (corners[i] == '1' ? static_cast<std::int64_t>(section.order) : 0))
+                in_.unsupported("%s: elements are read whose corners come first", keyword.c_str());
+        }
     }
 
     void read_elements(const Section& section) {
-        const std::uint64_t nodes = section.nodes(section.order), wanted = corners_of(section.cell);
+        const std::uint64_t nodes = section.nodes(section.order), wanted = cells_.corners_of(section.cell);
         const auto count =
             in_.count("number of elements", 2 * static_cast<std::size_t>(nodes + 1), max_count);
-        std::vector<std::uint32_t>& corners = wanted == 4 ? data_.tets : data_.triangles;
-        if (wanted) corners.reserve(corners.size() + static_cast<std::size_t>(wanted * count));
+        if (section.cell == CellKind::tet)
+            data_.tets.reserve(data_.tets.size() + 4 * static_cast<std::size_t>(count));
         for (std::uint64_t e = 0; e < count; ++e) {
+            std::uint32_t corners[most_corners];
             for (std::uint64_t i = 0; i < nodes; ++i) {
                 const auto number = integer<std::int64_t>("a vertex number");
                 if (i >= wanted) continue;
                 if (number < 1 || number > static_cast<std::int64_t>(max_count))
                     in_.fail("expected a vertex number, counted from 1, found %lld", lld(number));
-                corners.push_back(static_cast<std::uint32_t>(number - 1));
-                if (corners.back() >= highest_) {
-                    highest_ = corners.back();
+                corners[i] = static_cast<std::uint32_t>(number - 1);
+                if (corners[i] >= highest_) {
+                    highest_ = corners[i];
                     highest_at_ = in_.offset();
                 }
             }
             const std::int32_t region = region_of(integer<std::int64_t>("a reference"));
-            if (wanted == 4) data_.tet_regions.push_back(region);
+            if (wanted) cells_.add(section.cell, section.name, nodes, corners, region, data_);
         }
-        if (!wanted) skipped_.add(section.cell, section.name, count);
-        if (section.cell == CellKind::high_tet) data_.second_order_tets += count;
+        if (!wanted) cells_.skip(section.cell, section.name, count, data_);
     }
 
-    const File& file_;
     Scanner in_;
     MeshData data_;
-    Skipped skipped_;
+    Cells cells_;
     bool have_vertices_ = false, have_dimension_ = false;
     // The highest corner and where it is. It is checked at the end, as sections may come in any order.
     std::uint32_t highest_ = 0;

@@ -3,8 +3,7 @@
 // Errors that name the place in the file.
 #pragma once
 
-#include "io/formats/scan.hpp"
-#include "io/mesh_data.hpp"
+#include "io/formats/cells.hpp"
 
 #include <optional>
 
@@ -51,29 +50,6 @@ std::string extension_of(std::string_view name);
 
 // Throws if the file is recognised as something other than a mesh (empty, UTF-16, compressed, a web page).
 void refuse_other_content(const File& file);
-
-// ---- shared by the readers ----
-
-// How a cell of a mixed mesh is treated.
-enum class CellKind : std::uint8_t {
-    tet,      // has four nodes
-    high_tet, // has more nodes, of which the corners come first and are used
-    triangle, // has three nodes, or more with the corners first
-    volume,   // any other volume element: skipped, with a warning
-    other     // points, lines, quadrilaterals and the like: skipped
-};
-
-// Counts skipped cells, and by name those that are volume elements.
-struct Skipped {
-    void add(CellKind cell, const char* name, std::uint64_t number);
-
-    std::vector<std::pair<std::string, std::uint64_t>> volumes;
-    std::uint64_t elements = 0;
-};
-
-// What every reader of tets ends with: `data`, with what was skipped. Throws, naming the file, if it holds no
-// tet.
-MeshData finished(MeshData data, const Skipped& skipped, const std::string& name);
 
 // The largest number of vertices, and of tets, of a mesh.
 inline constexpr std::uint64_t max_count = VOX_MAX_VERTICES;

@@ -22,7 +22,8 @@ namespace vox::io {
 struct File {
     std::string name; // for error texts
     std::string_view bytes;
-    Progress progress{}; // of reading it
+    Progress progress{};      // of reading it
+    bool split_cells = false; // hexahedra, wedges and pyramids into tets
 };
 
 // Text for an error message, shortened to `longest` characters, with unprintable ones shown as "?".

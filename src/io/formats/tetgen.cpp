@@ -36,7 +36,7 @@ void read_nodes(const File& file, MeshData& data, NodeNumbers& numbers) {
     numbers.finish(in);
 }
 
-void read_tets(const File& file, const NodeNumbers& numbers, MeshData& data) {
+void read_tets(const File& file, const NodeNumbers& numbers, Cells& cells, MeshData& data) {
     Scanner in(file, '#');
     in.skip_space();
     const auto count = in.count("number of tetrahedra", 1, max_count);
@@ -50,17 +50,17 @@ void read_tets(const File& file, const NodeNumbers& numbers, MeshData& data) {
     for (std::uint64_t i = 0; i < count; ++i) {
         in.skip_space();
         in.integer<std::int64_t>("a tetrahedron's number");
+        std::uint32_t tet[4];
         for (std::int64_t c = 0; c < corners; ++c) {
             const auto number = in.integer<std::int64_t>("a node number");
-            if (c >= 4) continue; // nodes on edges
-            data.tets.push_back(numbers.vertex_of(number, in));
+            if (c < 4) tet[c] = numbers.vertex_of(number, in); // the others are on edges
         }
-        if (has_attributes) data.tet_regions.push_back(last_as_region(in));
+        cells.add(CellKind::tet, "", static_cast<std::uint64_t>(corners), tet,
+                  has_attributes ? last_as_region(in) : 0, data);
         in.skip_line();
     }
     in.skip_space();
     if (!in.done()) in.expected(format("the end of the file after %llu tetrahedra", llu(count)).c_str());
-    if (corners == 10) data.second_order_tets = count;
 }
 
 } // namespace
@@ -69,8 +69,9 @@ MeshData read_tetgen(const File& node, const File& ele) {
     MeshData data;
     NodeNumbers numbers;
     read_nodes(node, data, numbers);
-    read_tets(ele, numbers, data);
-    return finished(std::move(data), {}, ele.name);
+    Cells cells(ele);
+    read_tets(ele, numbers, cells, data);
+    return cells.finished(std::move(data));
 }
 
 } // namespace vox::io

@@ -9,7 +9,7 @@ MeshData read_vega(const File& file) {
     MeshData data;
     Scanner in(file, '#');
     NodeNumbers numbers("vertex", "vertices");
-    Skipped skipped;
+    Cells cells(file);
     bool have_vertices = false, have_elements = false;
     for (in.skip_space(); !in.done(); in.skip_space()) {
         const std::string keyword(in.peek());
@@ -47,18 +47,21 @@ MeshData read_vega(const File& file) {
             if (corners != (tets ? 4 : 8))
                 in.fail("expected %d vertices per element, found %lld", tets ? 4 : 8, lld(corners));
             in.skip_line();
+            const CellKind cell = tets ? CellKind::tet : CellKind::hexahedron;
+            const bool wanted = cells.corners_of(cell) > 0;
             if (tets) data.tets.reserve(data.tets.size() + 4 * count);
             for (std::uint64_t e = 0; e < count; ++e) {
                 in.skip_space();
                 in.integer<std::int64_t>("an element number");
+                std::uint32_t nodes[most_corners];
                 for (std::int64_t i = 0; i < corners; ++i) {
                     const auto number = in.integer<std::int64_t>("a vertex number");
-                    const std::uint32_t vertex = numbers.vertex_of(number, in);
-                    if (tets) data.tets.push_back(vertex);
+                    nodes[i] = numbers.vertex_of(number, in);
                 }
                 in.line_end();
+                if (wanted) cells.add(cell, "cubes", static_cast<std::uint64_t>(corners), nodes, 0, data);
             }
-            if (!tets) skipped.add(CellKind::volume, "cubes", count);
+            if (!wanted) cells.skip(cell, "cubes", count, data);
         }
         // Skips the lines of sections that are not needed (*MATERIAL, *SET ...).
         const bool needed = keyword == "*VERTICES" || keyword == "*ELEMENTS";
@@ -69,7 +72,7 @@ MeshData read_vega(const File& file) {
     }
     if (!have_vertices) in.fail("expected a section *VERTICES, found none");
     if (!have_elements) in.fail("expected a section *ELEMENTS, found none");
-    return finished(std::move(data), skipped, file.name);
+    return cells.finished(std::move(data));
 }
 
 } // namespace vox::io

@@ -21,11 +21,10 @@ public:
         if (types_.size() != cells_.ends.size())
             in_.fail_at(types_at_, "expected %zu cell types, as many as cells, found %zu", cells_.ends.size(),
                         types_.size());
-        Skipped skipped;
-        take_vtk_cells(cells_.ends, cells_.connectivity, types_, 0, data_.positions.size() / 3, data_,
-                       skipped, fail_at(cells_at_));
-        take_vtk_regions(types_, regions_, 0, data_);
-        return finished(std::move(data_), skipped, file_.name);
+        Cells cells(file_);
+        take_vtk_cells(cells_, types_, regions_, 0, data_.positions.size() / 3, data_, cells,
+                       fail_at(cells_at_));
+        return cells.finished(std::move(data_));
     }
 
 private:

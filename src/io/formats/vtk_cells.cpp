@@ -2,6 +2,8 @@
 
 namespace vox::io {
 
+static constexpr unsigned voxel = 11; // a hexahedron whose corners are in the order of a lattice
+
 VtkCellType vtk_cell_type(std::uint64_t type) {
     struct Row {
         unsigned type;
@@ -14,59 +16,65 @@ VtkCellType vtk_cell_type(std::uint64_t type) {
                                    {69, {CellKind::triangle, 3, "Lagrange triangle", true}},
                                    {76, {CellKind::triangle, 3, "Bezier triangle", true}},
                                    {10, {CellKind::tet, 4, "tetrahedron"}},
-                                   {24, {CellKind::high_tet, 10, "quadratic tetrahedron"}},
-                                   {64, {CellKind::high_tet, 4, "tetrahedron of higher order", true}},
-                                   {71, {CellKind::high_tet, 4, "Lagrange tetrahedron", true}},
-                                   {78, {CellKind::high_tet, 4, "Bezier tetrahedron", true}},
-                                   {11, {CellKind::volume, 0, "voxels"}},
-                                   {12, {CellKind::volume, 0, "hexahedra"}},
-                                   {13, {CellKind::volume, 0, "wedges"}},
-                                   {14, {CellKind::volume, 0, "pyramids"}},
+                                   {24, {CellKind::tet, 10, "quadratic tetrahedron"}},
+                                   {64, {CellKind::tet, 4, "tetrahedron of higher order", true}},
+                                   {71, {CellKind::tet, 4, "Lagrange tetrahedron", true}},
+                                   {78, {CellKind::tet, 4, "Bezier tetrahedron", true}},
+                                   {voxel, {CellKind::hexahedron, 8, "voxels"}},
+                                   {12, {CellKind::hexahedron, 8, "hexahedra"}},
+                                   {25, {CellKind::hexahedron, 20, "quadratic hexahedra"}},
+                                   {29, {CellKind::hexahedron, 27, "triquadratic hexahedra"}},
+                                   {33, {CellKind::hexahedron, 24, "biquadratic hexahedra"}},
+                                   {67, {CellKind::hexahedron, 8, "hexahedra of higher order", true}},
+                                   {72, {CellKind::hexahedron, 8, "Lagrange hexahedra", true}},
+                                   {79, {CellKind::hexahedron, 8, "Bezier hexahedra", true}},
+                                   {13, {CellKind::wedge, 6, "wedges"}},
+                                   {26, {CellKind::wedge, 15, "quadratic wedges"}},
+                                   {31, {CellKind::wedge, 12, "quadratic-linear wedges"}},
+                                   {32, {CellKind::wedge, 18, "biquadratic wedges"}},
+                                   {65, {CellKind::wedge, 6, "wedges of higher order", true}},
+                                   {73, {CellKind::wedge, 6, "Lagrange wedges", true}},
+                                   {80, {CellKind::wedge, 6, "Bezier wedges", true}},
+                                   {14, {CellKind::pyramid, 5, "pyramids"}},
+                                   {27, {CellKind::pyramid, 13, "quadratic pyramids"}},
+                                   {37, {CellKind::pyramid, 19, "triquadratic pyramids"}},
+                                   {66, {CellKind::pyramid, 5, "pyramids of higher order", true}},
+                                   {74, {CellKind::pyramid, 5, "Lagrange pyramids", true}},
+                                   {81, {CellKind::pyramid, 5, "Bezier pyramids", true}},
                                    {15, {CellKind::volume, 0, "pentagonal prisms"}},
                                    {16, {CellKind::volume, 0, "hexagonal prisms"}},
+                                   {41, {CellKind::volume, 0, "convex point sets"}},
                                    {42, {CellKind::volume, 0, "polyhedra"}}};
     for (const Row& row : rows)
         if (row.type == type) return row.is;
-    for (const unsigned volume :
-         {25u, 26u, 27u, 29u, 32u, 33u, 37u, 41u, 65u, 66u, 67u, 72u, 73u, 74u, 79u, 80u, 81u})
-        if (type == volume) return {CellKind::volume, 0, "cells of higher order"};
     return {CellKind::other, 0, "other cells"};
 }
 
-void take_vtk_regions(const std::vector<std::uint64_t>& types, const RegionArray& regions,
-                      std::size_t tets_before, MeshData& data) {
-    if (regions.of_cells().size() != types.size()) return;
-    data.tet_regions.resize(tets_before, 0);
+void take_vtk_cells(const VtkPolygons& list, const std::vector<std::uint64_t>& types,
+                    const RegionArray& regions, std::uint64_t first_vertex, std::uint64_t vertex_count,
+                    MeshData& data, Cells& cells, const VtkFail& fail) {
+    const bool have_regions = regions.of_cells().size() == types.size();
     for (std::size_t c = 0; c < types.size(); ++c) {
-        const CellKind kind = vtk_cell_type(types[c]).cell;
-        if (kind == CellKind::tet || kind == CellKind::high_tet)
-            data.tet_regions.push_back(regions.of_cells()[c]);
-    }
-    if (data.tet_regions.size() != data.tets.size() / 4)
-        data.tet_regions.resize(tets_before); // some were left out
-}
-
-void take_vtk_cells(const std::vector<std::uint64_t>& ends, const std::vector<std::uint64_t>& connectivity,
-                    const std::vector<std::uint64_t>& types, std::uint64_t first_vertex,
-                    std::uint64_t vertex_count, MeshData& data, Skipped& skipped, const VtkFail& fail) {
-    for (std::size_t c = 0; c < types.size(); ++c) {
-        const std::uint64_t start = c == 0 ? 0 : ends[c - 1], points = ends[c] - start;
-        check_vtk_cell(start, ends[c], connectivity.size(), c, fail);
+        const std::uint64_t start = c == 0 ? 0 : list.ends[c - 1], points = list.ends[c] - start;
+        check_vtk_cell(start, list.ends[c], list.connectivity.size(), c, fail);
         const VtkCellType type = vtk_cell_type(types[c]);
-        if (type.cell == CellKind::volume || type.cell == CellKind::other) {
-            skipped.add(type.cell, type.name, 1);
+        const std::size_t corners = cells.corners_of(type.cell);
+        if (corners == 0) {
+            cells.skip(type.cell, type.name, 1, data);
             continue;
         }
-        const std::uint64_t corners = type.cell == CellKind::triangle ? 3 : 4;
         const bool exactly = type.least_points == corners && !type.any_order;
         if (points < type.least_points || (exactly && points > corners))
             fail(c, format("expected %llu points (%s), found %llu", llu(type.least_points), type.name,
                            llu(points)));
-        if (type.cell == CellKind::high_tet && points > corners) ++data.second_order_tets;
-        std::vector<std::uint32_t>& out = type.cell == CellKind::triangle ? data.triangles : data.tets;
-        for (std::uint64_t i = 0; i < corners; ++i)
-            out.push_back(static_cast<std::uint32_t>(
-                first_vertex + checked_vtk_point(connectivity[start + i], vertex_count, c, fail)));
+        std::uint32_t vertices[most_corners];
+        for (std::size_t i = 0; i < corners; ++i)
+            vertices[i] = static_cast<std::uint32_t>(
+                first_vertex + checked_vtk_point(list.connectivity[start + i], vertex_count, c, fail));
+        if (types[c] == voxel)
+            for (const std::size_t i : {std::size_t{2}, std::size_t{6}})
+                std::swap(vertices[i], vertices[i + 1]);
+        cells.add(type.cell, type.name, points, vertices, have_regions ? regions.of_cells()[c] : 0, data);
     }
 }
 

@@ -16,7 +16,7 @@ namespace vox::io {
 
 struct VtkCellType {
     CellKind cell;
-    std::uint64_t least_points; // 0 for cells that are skipped
+    std::uint64_t least_points; // 0 for cells that are always skipped
     const char* name;
     bool any_order = false; // it may have more points
 };
@@ -42,24 +42,20 @@ inline std::uint64_t checked_vtk_point(std::uint64_t point, std::uint64_t points
     return point;
 }
 
-// Adds the cells to `data`. Cell c has the points connectivity[ends[c - 1]] to connectivity[ends[c] - 1],
-// counted from first_vertex.
-void take_vtk_cells(const std::vector<std::uint64_t>& ends, const std::vector<std::uint64_t>& connectivity,
-                    const std::vector<std::uint64_t>& types, std::uint64_t first_vertex,
-                    std::uint64_t vertex_count, MeshData& data, Skipped& skipped, const VtkFail& fail);
-
-// Polygons, or strips of triangles, of a surface: as above.
+// Cells, or of a surface polygons or strips of triangles: c has the points connectivity[ends[c - 1]] to
+// connectivity[ends[c] - 1].
 struct VtkPolygons {
     std::vector<std::uint64_t> ends, connectivity;
 };
 
+// Adds the cells to `data`, whose vertices from first_vertex on they name.
+void take_vtk_cells(const VtkPolygons& list, const std::vector<std::uint64_t>& types,
+                    const RegionArray& regions, std::uint64_t first_vertex, std::uint64_t vertex_count,
+                    MeshData& data, Cells& cells, const VtkFail& fail);
+
 // Adds them to `surface`, whose points from first_point on they name.
 void take_vtk_polygons(const VtkPolygons& list, bool strips, std::size_t first_point, SurfaceBuilder& surface,
                        const VtkFail& fail);
-
-// Adds the regions of those cells that are tets, of which there were `tets_before` before they were taken.
-void take_vtk_regions(const std::vector<std::uint64_t>& types, const RegionArray& regions,
-                      std::size_t tets_before, MeshData& data);
 
 // The number type of that name in either kind of file.
 std::optional<NumberType> vtk_number(std::string_view name);

@@ -21,7 +21,8 @@ struct Array {
 
 class VtuReader {
 public:
-    VtuReader(const File& file, std::uint32_t mesh_index) : file_(file), mesh_index_(mesh_index) {}
+    VtuReader(const File& file, std::uint32_t mesh_index)
+        : file_(file), mesh_index_(mesh_index), cells_(file) {}
 
     MeshData read() {
         parse();
@@ -75,7 +76,7 @@ public:
                 read_piece(piece, progress);
             ++done;
         }
-        return type == "PolyData" ? surface.finish() : finished(std::move(data_), skipped_, file_.name);
+        return type == "PolyData" ? surface.finish() : cells_.finished(std::move(data_));
     }
 
 private:
@@ -312,10 +313,8 @@ private:
         std::vector<std::uint64_t> types;
         const pugi::xml_node kinds = cell_array(node, "types");
         append(open(kinds, cells), cells, types, progress.part(0.9, 1));
-        const std::size_t tets_before = data_.tets.size() / 4;
-        take_vtk_cells(list.ends, list.connectivity, types, first_vertex, points, data_, skipped_,
+        take_vtk_cells(list, types, regions_of(piece, cells), first_vertex, points, data_, cells_,
                        fail_at(node));
-        take_vtk_regions(types, regions_of(piece, cells), tets_before, data_);
     }
 
     // Files are read without regions if these cannot be read.
@@ -370,7 +369,7 @@ private:
     Packing packing_ = Packing::none;
     std::size_t header_size_ = 4;
     MeshData data_;
-    Skipped skipped_;
+    Cells cells_;
 };
 
 } // namespace

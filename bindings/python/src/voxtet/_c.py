@@ -227,6 +227,7 @@ class IoFormat(enum.IntEnum):
 
 class IoLoadFlags(enum.IntFlag):
     KEEP_UNUSED = 1
+    SPLIT_CELLS = 2
 
 
 class IoSolidKind(enum.IntEnum):
@@ -1086,6 +1087,7 @@ class vox_io_mesh_view(Structure):
         ("triangle_count", c_uint64),
         ("tet_regions", c_void_p),
         ("file_vertices", c_void_p),
+        ("tet_cells", c_void_p),
     ]
 
 
@@ -1116,6 +1118,8 @@ class vox_io_report(Structure):
         ("unit_in_metres", c_double),
         ("left_out_vertices", c_uint64),
         ("left_out_triangles", c_uint64),
+        ("split_cells", c_uint64),
+        ("left_out_tets", c_uint64),
     ]
 
 dtypes["vox_io_report"] = dtype({
@@ -1123,12 +1127,12 @@ dtypes["vox_io_report"] = dtype({
         "inverted_tets", "degenerate_tets", "nearly_flat_tets", "duplicate_tets", "degenerate_triangles",
         "duplicate_vertices", "unused_vertices", "boundary_facets", "non_manifold_facets", "open_edges",
         "misoriented_edges", "components", "volume", "bounds_min", "bounds_max", "unit_in_metres", "left_out_vertices",
-        "left_out_triangles"],
+        "left_out_triangles", "split_cells", "left_out_tets"],
     "formats": ["u4", "i4", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8",
-        "u8", "u8", "f8", ("f8", (3,)), ("f8", (3,)), "f8", "u8", "u8"],
+        "u8", "u8", "f8", ("f8", (3,)), ("f8", (3,)), "f8", "u8", "u8", "u8", "u8"],
     "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80, 88, 96, 104, 112, 120, 128, 136, 144, 152, 176, 200, 208,
-        216],
-    "itemsize": 224})
+        216, 224, 232],
+    "itemsize": 240})
 
 
 vox_io_tetrahedralize_desc_progress = CFUNCTYPE(c_int32, c_double, c_void_p)

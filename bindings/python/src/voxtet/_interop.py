@@ -15,7 +15,8 @@ from .mesh import Mesh
 _VTK_TRIANGLES = (5, 22, 34, 69, 76)
 _VTK_NAMES = {5: "triangle", 10: "tetra", 11: "voxel", 12: "hexahedron", 13: "wedge", 14: "pyramid", 15: "pentagonal prism",
               16: "hexagonal prism", 24: "tetra10", 25: "quadratic hexahedron", 26: "quadratic wedge", 27: "quadratic pyramid",
-              29: "triquadratic hexahedron", 32: "quadratic linear wedge", 33: "biquadratic quadratic hexahedron",
+              29: "triquadratic hexahedron", 31: "quadratic linear wedge",
+              32: "biquadratic quadratic wedge", 33: "biquadratic quadratic hexahedron",
               37: "triquadratic pyramid", 41: "convex point set", 42: "polyhedron", 71: "Lagrange tetrahedron",
               72: "Lagrange hexahedron", 73: "Lagrange wedge", 74: "Lagrange pyramid", 78: "Bezier tetrahedron",
               79: "Bezier hexahedron", 80: "Bezier wedge", 81: "Bezier pyramid"}

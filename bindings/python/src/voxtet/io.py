@@ -69,6 +69,8 @@ class Report(NamedTuple):
     unit_in_metres: float
     left_out_vertices: int
     left_out_triangles: int
+    split_cells: int
+    left_out_tets: int
 
 
 class Quality(NamedTuple):
@@ -93,16 +95,19 @@ class MeshData:
 
     `regions`: a number for each tet (physical groups of Gmsh, references of Medit, cell data of VTK), or None.
     `file_vertices`: for each vertex its number in the file or mesh that it comes from, from 0, where vertices were left out;
-    else None. Values for the vertices go back by `of_file[data.file_vertices] = values`."""
+    else None. Values for the vertices go back by `of_file[data.file_vertices] = values`. `cells`: for each tet the number of its
+    cell in the file or mesh, from 0 through cells of every kind, where that differs from its own; else None."""
 
     positions: NDArray[np.float64]
     tets: NDArray[np.uint32]
     triangles: NDArray[np.uint32]
     regions: Optional[NDArray[np.int32]]
     file_vertices: Optional[NDArray[np.uint32]]
+    cells: Optional[NDArray[np.uint32]]
 
     def __init__(self, positions: ArrayLike, tets: Optional[ArrayLike] = None, triangles: Optional[ArrayLike] = None,
-                 regions: Optional[ArrayLike] = None, file_vertices: Optional[ArrayLike] = None) -> None:
+                 regions: Optional[ArrayLike] = None, file_vertices: Optional[ArrayLike] = None,
+                 cells: Optional[ArrayLike] = None) -> None:
         found = copied_rows(positions, "positions").array
         assert found is not None
         points = np.ascontiguousarray(found, np.float64)
@@ -114,8 +119,10 @@ class MeshData:
         view.triangles, view.triangle_count = facets.ctypes.data, len(facets)
         of_tets = _column(regions, "regions", len(corners), _REGION)
         of_vertices = _column(file_vertices, "file_vertices", len(points), _INDEX)
+        of_cells = _column(cells, "cells", len(corners), _INDEX)
         view.tet_regions = None if of_tets is None else of_tets.ctypes.data
         view.file_vertices = None if of_vertices is None else of_vertices.ctypes.data
+        view.tet_cells = None if of_cells is None else of_cells.ctypes.data
         pointer = ctypes.c_void_p()
         _io.vox_io_mesh_create(view, pointer)
         self._hold(pointer)
@@ -135,11 +142,13 @@ class MeshData:
                                                    ("triangles", view.triangles, view.triangle_count, 3, _INDEX)):
             flat = borrow_of(address, count * width, np.ndarray, dtype, self._handle)
             setattr(self, name, flat.reshape(-1, width))
-        self.regions = self.file_vertices = None
+        self.regions = self.file_vertices = self.cells = None
         if view.tet_regions:
             self.regions = borrow_of(view.tet_regions, view.tet_count, np.ndarray, _REGION, self._handle)
         if view.file_vertices:
             self.file_vertices = borrow_of(view.file_vertices, view.vertex_count, np.ndarray, _INDEX, self._handle)
+        if view.tet_cells:
+            self.cells = borrow_of(view.tet_cells, view.tet_count, np.ndarray, _INDEX, self._handle)
 
     @property
     def report(self) -> Report:
@@ -164,7 +173,7 @@ class MeshData:
 
     def __reduce__(self) -> Any:
         return MeshData, tuple(None if array is None else np.array(array) for array in (
-            self.positions, self.tets, self.triangles, self.regions, self.file_vertices))
+            self.positions, self.tets, self.triangles, self.regions, self.file_vertices, self.cells))
 
 
 def _column(values: Optional[ArrayLike], name: str, count: int, dtype: np.dtype[Any]) -> Optional[NDArray[Any]]:
@@ -189,9 +198,10 @@ def _said(data: MeshData, name: str) -> MeshData:
     return data
 
 
-def _load_desc(format: Union[str, _c.IoFormat], mesh_index: Optional[int], keep_unused: bool) -> Any:
+def _load_desc(format: Union[str, _c.IoFormat], mesh_index: Optional[int], keep_unused: bool, split_cells: bool) -> Any:
     desc = described(_c.vox_io_load_desc)
-    desc.flags = _c.IoLoadFlags.KEEP_UNUSED * switch(keep_unused, "keep_unused")
+    desc.flags = (_c.IoLoadFlags.KEEP_UNUSED * switch(keep_unused, "keep_unused")
+                  + _c.IoLoadFlags.SPLIT_CELLS * switch(split_cells, "split_cells"))
     desc.format = choice(_c.IoFormat, format, "format")
     if mesh_index is not None:
         desc.mesh = 1 + integer(mesh_index, "mesh_index", 0, U32 - 1)
@@ -233,11 +243,12 @@ def _with_reason(error: FileError, path: Path, opened: str) -> FileError:
 
 
 def load(path: Path, *, format: Union[str, _c.IoFormat] = "auto", mesh_index: Optional[int] = None,
-         keep_unused: bool = False) -> MeshData:
+         keep_unused: bool = False, split_cells: bool = False) -> MeshData:
     """Reads a file: Gmsh, TetGen, Medit, Vega, VTK, VTU; surfaces: STL, OBJ, PLY, OFF, glTF. mesh_index: the one to take of a
     scene; None joins all. keep_unused: keep vertices that belong to no tetrahedron, which are left out otherwise, as they would
-    collide like all others. What is odd about the mesh is a MeshWarning."""
-    desc, pointer = _load_desc(format, mesh_index, keep_unused), ctypes.c_void_p()
+    collide like all others. split_cells: split hexahedra, wedges and pyramids into tetrahedra, as `from_meshio` does; they are left
+    out otherwise. What is odd about the mesh is a MeshWarning."""
+    desc, pointer = _load_desc(format, mesh_index, keep_unused, split_cells), ctypes.c_void_p()
     try:
         _io.vox_io_load(_bytes_of(path), desc, pointer)
     except FileError as error:
@@ -246,7 +257,7 @@ def load(path: Path, *, format: Union[str, _c.IoFormat] = "auto", mesh_index: Op
 
 
 def read(data: Union[bytes, Mapping[str, bytes]], name: Optional[str] = None, *, format: Union[str, _c.IoFormat] = "auto",
-         mesh_index: Optional[int] = None, keep_unused: bool = False) -> MeshData:
+         mesh_index: Optional[int] = None, keep_unused: bool = False, split_cells: bool = False) -> MeshData:
     """The same from memory: the bytes of a file, whose name says the format where its content does not; or the bytes of
     several files by name (TetGen's .node and .ele)."""
     files = data if isinstance(data, Mapping) else {name: data}
@@ -255,7 +266,7 @@ def read(data: Union[bytes, Mapping[str, bytes]], name: Optional[str] = None, *,
     for source, key, array in zip(sources, files, arrays):
         source.name = None if key is None else _text(key, "a name", "surrogateescape")
         source.data, source.size = array.ctypes.data, array.size
-    desc, pointer = _load_desc(format, mesh_index, keep_unused), ctypes.c_void_p()
+    desc, pointer = _load_desc(format, mesh_index, keep_unused, split_cells), ctypes.c_void_p()
     _io.vox_io_read(sources, len(sources), desc, pointer)
     return _said(MeshData._of(pointer), " and ".join(str(key or "a mesh in memory") for key in files))
 
@@ -277,7 +288,8 @@ def _of_parts(parts: Parts, keep_unused: bool) -> MeshData:
     parts = parts.checked() if switch(keep_unused, "keep_unused") else parts.checked().without_unused()
     if parts.notes or parts.as_tets:
         warn("; ".join(parts.notes + parts.as_tets))
-    return MeshData(parts.positions, parts.tets, parts.triangles, parts.regions, parts.file_vertices)
+    own = np.array_equal(parts.cells, np.arange(len(parts.tets)))
+    return MeshData(parts.positions, parts.tets, parts.triangles, parts.regions, parts.file_vertices, None if own else parts.cells)
 
 
 class _Writing:

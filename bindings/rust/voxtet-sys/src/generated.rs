@@ -350,6 +350,10 @@ pub type vox_io_load_flags = u32;
 /// Keep vertices that belong to no tet, and triangles that name one. A vertex then has the file's number. In a grid
 /// such vertices collide like all others.
 pub const VOX_IO_LOAD_KEEP_UNUSED: vox_io_load_flags = 1;
+/// Split hexahedra, wedges (prisms) and pyramids into tets. Otherwise these are left out, with a warning. A face of
+/// four corners is split by the diagonal from its corner that comes first in the file, so that neighbours fit together.
+/// Only corners are used, of cells of higher order, too. Each tet has the region of its cell.
+pub const VOX_IO_LOAD_SPLIT_CELLS: vox_io_load_flags = 2;
 
 pub type vox_io_solid_kind = i32;
 /// Isosurface stuffing: the boundary follows the surface, and dihedral angles are between 10.7 and 164.8 degrees.
@@ -1431,6 +1435,9 @@ pub struct vox_io_mesh_view {
     /// For each vertex its number in the file, counted from 0 in the file's order, ascending; null if vertices were not
     /// left out. Values for vertex v belong to vertex file_vertices[v] of the file.
     pub file_vertices: *const u32,
+    /// For each tet the number of its cell in the file, counted from 0 in the file's order through cells of every kind,
+    /// ascending; null if tet t is cell t. Instances of a part in an Abaqus file count one after the other.
+    pub tet_cells: *const u32,
 }
 
 /// What was read, what was left out, and what is odd about the mesh. A "surface" is a mesh without tets.
@@ -1483,6 +1490,10 @@ pub struct vox_io_report {
     pub left_out_vertices: u64,
     /// triangles of the file that name one of them and are not in the mesh
     pub left_out_triangles: u64,
+    /// hexahedra, wedges and pyramids of the file that were split into tets
+    pub split_cells: u64,
+    /// tets of ten or more nodes whose corners lie in one plane, exactly
+    pub left_out_tets: u64,
 }
 
 #[repr(C)]
@@ -2573,17 +2584,17 @@ layouts! {
     vox_io_load_desc: size [40, 28], alignment [8, 4], { struct_size: [0, 0], format: [4, 4], mesh: [8, 8],
         flags: [12, 12], allocator: [16, 16], progress: [24, 20], progress_user: [32, 24] }
     vox_io_source: size [24, 12], alignment [8, 4], { name: [0, 0], data: [8, 4], size: [16, 8] }
-    vox_io_mesh_view: size [64, 56], alignment [8, 8], { positions: [0, 0], vertex_count: [8, 8], tets: [16, 16],
+    vox_io_mesh_view: size [72, 64], alignment [8, 8], { positions: [0, 0], vertex_count: [8, 8], tets: [16, 16],
         tet_count: [24, 24], triangles: [32, 32], triangle_count: [40, 40], tet_regions: [48, 48],
-        file_vertices: [56, 52] }
-    vox_io_report: size [224, 224], alignment [8, 8], { struct_size: [0, 0], format: [4, 4], vertices: [8, 8],
+        file_vertices: [56, 52], tet_cells: [64, 56] }
+    vox_io_report: size [240, 240], alignment [8, 8], { struct_size: [0, 0], format: [4, 4], vertices: [8, 8],
         tets: [16, 16], triangles: [24, 24], skipped_elements: [32, 32], second_order_tets: [40, 40],
         inverted_tets: [48, 48], degenerate_tets: [56, 56], nearly_flat_tets: [64, 64], duplicate_tets: [72, 72],
         degenerate_triangles: [80, 80], duplicate_vertices: [88, 88], unused_vertices: [96, 96],
         boundary_facets: [104, 104], non_manifold_facets: [112, 112], open_edges: [120, 120],
         misoriented_edges: [128, 128], components: [136, 136], volume: [144, 144], bounds_min: [152, 152],
         bounds_max: [176, 176], unit_in_metres: [200, 200], left_out_vertices: [208, 208],
-        left_out_triangles: [216, 216] }
+        left_out_triangles: [216, 216], split_cells: [224, 224], left_out_tets: [232, 232] }
     vox_io_tetrahedralize_desc: size [64, 56], alignment [8, 8], { struct_size: [0, 0], kind: [4, 4], cell: [8, 8],
         max_tets: [16, 16], max_distance: [24, 24], coarsen: [32, 32], reserved: [36, 36], progress: [40, 40],
         progress_user: [48, 44], allocator: [56, 48] }

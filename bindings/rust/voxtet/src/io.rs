@@ -95,6 +95,7 @@ impl MeshFile {
             triangle_count: triangles.len() as u64,
             tet_regions: null(),
             file_vertices: null(),
+            tet_cells: null(),
         };
         made(|out| unsafe { sys::vox_io_mesh_create(&view, out) })
     }
@@ -201,6 +202,12 @@ impl MeshFile {
     pub fn file_vertices(&self) -> Option<&[u32]> {
         let view = self.view();
         (!view.file_vertices.is_null()).then(|| unsafe { records(view.file_vertices, view.vertex_count) })
+    }
+
+    /// For each tetrahedron the number of its cell in the file, where that differs from its own.
+    pub fn tet_cells(&self) -> Option<&[u32]> {
+        let view = self.view();
+        (!view.tet_cells.is_null()).then(|| unsafe { records(view.tet_cells, view.tet_count) })
     }
 
     /// What was read, and what is odd about it.
