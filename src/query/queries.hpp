@@ -3,11 +3,11 @@
 #pragma once
 
 #include "base/array.hpp"
+#include "base/box_tree.hpp"
 #include "base/boxes.hpp"
 #include "base/parallel.hpp"
 #include "base/scene.hpp"
 #include "mesh/tiles.hpp"
-#include "query/box_tree.hpp"
 #include "query/tets.hpp"
 
 #include <vox/vox_query.h>

@@ -1,11 +1,11 @@
 // What queries stand on: rounding outwards, the tree of boxes, and answers for shapes as bad as can be, all
 // by definition.
+#include "base/box_tree.hpp"
 #include "base/boxes.hpp"
 #include "base/rounding.hpp"
 #include "base/vectors.hpp"
 #include "internal/meshes.hpp"
 #include "internal/query_definition.hpp"
-#include "query/box_tree.hpp"
 #include "support/locators.h"
 
 #include <algorithm>
