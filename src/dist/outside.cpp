@@ -155,8 +155,8 @@ void Outside::find_sent_facets() {
                 names_a_vertex_twice({tet[0], tet[1], tet[2], tet[3]}))
                 continue;
             for (std::uint32_t f = 0; f < 4; ++f)
-                for (const Wanted& same : std::ranges::equal_range(begin, end, sorted_facet(tet, f), {},
-                                                                   &Wanted::vertices))
+                for (const Wanted& same :
+                     std::ranges::equal_range(begin, end, sorted_facet(tet, f), {}, &Wanted::vertices))
                     if (same.opposite != tet[f]) writers_[same.neighbour].add(same.place);
         }
         begin = end;

@@ -9,7 +9,7 @@ from repository import ROOT, files, text_of
 
 # Of C and C++ in src/, of all files elsewhere.
 LINES_OF_FOLDER = {
-    "src": 49800, "src/base": 3520, "src/exact": 1875, "src/mesh": 4040, "src/reference": 680, "src/fast": 5550,
+    "src": 49800, "src/base": 3520, "src/exact": 1785, "src/mesh": 4040, "src/reference": 680, "src/fast": 5550,
     "src/depth": 2950, "src/query": 2080, "src/cell_size": 5464, "src/surface": 3340, "src/grid": 6305, "src/api": 1160,
     "src/io": 9465, "src/sim": 1150, "src/dist": 2460, "src/mpi": 180,
     "tools": 6900, "bench": 10220,
