@@ -248,7 +248,7 @@ void locate_rank(const vox_dist_transport* transport, Points& points) {
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     if (transport->size == 1) points.seconds = took.count();
     for (std::uint64_t i = begin; i < end; ++i)
-        points.tets[i] = found[i - begin].rank == VOX_NONE ? UINT64_MAX : found[i - begin].tet;
+        points.tets[i] = found[i - begin].state != VOX_LOCATION_INSIDE ? UINT64_MAX : found[i - begin].tet;
 }
 
 // Every point is found, in the same tetrahedron for any number of ranks.

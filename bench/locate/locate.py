@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Points, nearest tetrahedra and tracks in 48,000 tetrahedra: voxtet beside scikit-fem, VTK, pyvista and medcoupling, whichever are
+"""Points, nearest tetrahedra and tracks in 48,000 tetrahedra: voxtet beside scikit-fem, VTK, pyvista, medcoupling and dolfinx, whichever are
 installed, on one thread. All answers are compared with voxtet's, which are exact. Prints the table of docs/evidence/locate.md.
 
 usage: VOXTET_LIBRARY_DIR=build/release PYTHONPATH=bindings/python/src locate.py [--rounds N]"""
@@ -107,7 +107,27 @@ def entrants(positions, tets):
             return cells.toNumPyArray()[index.toNumPyArray()[:-1]]
 
         found["medcoupling, getCellsContainingPoints"] = {"find": by_medcoupling}
+    if modules := needs("dolfinx", "mpi4py.MPI", "ufl"):
+        by_dolfinx = dolfinx_finder(*modules, positions, tets)
+        found["dolfinx, compute_colliding_cells"] = {"find": by_dolfinx}
     return found
+
+
+def dolfinx_finder(dolfinx, mpi, ufl, positions, tets):
+    """The lowest cell of each point among the several that it may have, by dolfinx 0.5."""
+    geometry = importlib.import_module("dolfinx.geometry")
+    mesh = importlib.import_module("dolfinx.mesh").create_mesh(
+        mpi.COMM_SELF, tets.astype(np.int64), positions, ufl.Mesh(ufl.VectorElement("Lagrange", ufl.tetrahedron, 1)))
+    tree = geometry.BoundingBoxTree(mesh, 3)
+    number = np.asarray(mesh.topology.original_cell_index)
+
+    def find(points):
+        cells = geometry.compute_colliding_cells(mesh, geometry.compute_collisions(tree, points), points)
+        none = np.diff(cells.offsets) == 0
+        first = np.minimum.reduceat(np.append(number[cells.array], len(tets)), cells.offsets[:-1])
+        return np.where(none, -1, first)
+
+    return find
 
 
 def measured(run, given, count, rounds, differ, expected):

@@ -134,6 +134,7 @@ export interface Constraint {
    * shape; VOX_NONE if it has none
    */
   elementB: number;
+  /** of corners of a tetrahedron: rounded as in vox_location (vox_query.h) */
   weights: number[];
   /** a unit vector out of body_b, the way for body_a */
   normal: [number, number, number];
@@ -295,7 +296,7 @@ export interface PointHit {
   point: number;
   body: number;
   tet: number;
-  /** of the tetrahedron's corners, in [0, 1], each within 2^-41 of the true one */
+  /** of the tetrahedron's corners, in [0, 1], as in vox_location */
   weights: [number, number, number, number];
 }
 

@@ -449,7 +449,7 @@ typedef struct vox_constraint {
     uint32_t element_b;                      /* tetrahedron of body_b: the lowest that contains the vertex; with a
                                                 face, the tetrahedron behind it. Triangle of a shape; VOX_NONE if it
                                                 has none */
-    double weights[VOX_STENCIL_CAPACITY];
+    double weights[VOX_STENCIL_CAPACITY]; /* of corners of a tetrahedron: rounded as in vox_location (vox_query.h) */
     double normal[3]; /* a unit vector out of body_b, the way for body_a */
     double gap;
     double offset;

@@ -18,7 +18,7 @@
 #ifndef VOX_VOX_DIST_H
 #define VOX_VOX_DIST_H
 
-#include <vox/vox.h>
+#include <vox/vox_query.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -153,20 +153,24 @@ VOX_EXPERIMENTAL vox_result vox_dist_scene_get_hash(vox_dist_scene* scene, uint6
 
 /* ---- points ----------------------------------------------------------------------------------- */
 
-/* Where a point is: in which tetrahedron of the lowest body that contains it, by the rule of vox_location. A point
- * outside is in none, however near the next body is. */
+/* Where a point is: what vox_location says of it, by the same rules, if all bodies of all ranks are in one locator, in
+ * the order of their numbers, with all numbers in place of indices. */
 typedef struct vox_dist_location {
     uint64_t body;
-    uint64_t tet;         /* global number */
-    double weights[4];    /* of the tetrahedron's corners, as in vox_location */
-    uint32_t rank;        /* where the tetrahedron lies; VOX_NONE: no tetrahedron contains the point; the other fields
-                             are 0 */
-    uint32_t interior;    /* 1 if the point is in the interior of the tetrahedron, 0 if on its boundary */
+    uint64_t tet; /* global number */
+    vox_location_state state;
+    uint32_t rank;     /* where the tetrahedron lies; VOX_NONE if the state is VOX_LOCATION_NONE, where all other fields
+                          are 0 */
+    double weights[4]; /* of the tetrahedron's corners, for the point or the closest point, as in vox_location */
+    double distance;   /* to the closest point; 0 inside */
 } vox_dist_location;
 
 /* Collective. Locates points of this rank, at most 2^31 - 1: out_locations[i] is for point i. The answers are the same
- * for any partition. Contacts stay. The first call makes a second grid of the parts.
- * Errors: as vox_dist_scene_step, where the text names a point by its index. */
+ * for any partition, bit for bit. Points outside all bodies take three more rounds of messages, with all ranks that may
+ * have the closest surface. Contacts stay. The first call makes a second grid of the parts; the first with points outside
+ * finds their facets.
+ * Errors: as vox_dist_scene_step, where the text names a point by its index; then out_locations may be written in
+ * part. */
 VOX_EXPERIMENTAL vox_result vox_dist_scene_locate(vox_dist_scene* scene, const vox_positions* points,
                                                   vox_dist_location* out_locations);
 

@@ -124,7 +124,7 @@ typedef struct vox_point_hit {
     vox_body body;
     uint32_t tet;
     uint32_t reserved; /* 0 */
-    double weights[4]; /* of the tetrahedron's corners, in [0, 1], each within 2^-41 of the true one */
+    double weights[4]; /* of the tetrahedron's corners, in [0, 1], as in vox_location */
 } vox_point_hit;
 
 /* Finds the tetrahedra that contain points, by the rule of vox_contact: every tetrahedron of a body that has the point

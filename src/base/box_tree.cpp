@@ -4,7 +4,6 @@
 #include "base/room.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace vox {
@@ -25,7 +24,7 @@ void BoxTree::reserve(std::size_t items) {
     reserve_growing(centres_, items);
 }
 
-void BoxTree::build(std::span<const Box3f> boxes, Workers& workers) {
+bool BoxTree::take(std::span<const Box3f> boxes) {
     centres_.clear();
     for (std::uint32_t i = 0; i < boxes.size(); ++i) {
         const Box3f& box = boxes[i];
@@ -35,27 +34,23 @@ void BoxTree::build(std::span<const Box3f> boxes, Workers& workers) {
     }
     items_.resize(centres_.size());
     boxes_.resize(2 * centres_.size());
-    if (centres_.empty()) return;
-    // The top of the tree is split here, the parts below it by the workers, if there are enough items.
-    constexpr std::size_t most_parts = 16, least_items = 1024;
-    std::array<Part, most_parts> parts;
+    return !centres_.empty();
+}
+
+// Returns the number of parts, which are still to be split.
+std::size_t BoxTree::split_top(std::array<Part, most_parts>& parts) noexcept {
     std::size_t count = 0;
-    const auto split_top = [&](const auto& self, const Part& part) -> void {
+    const auto split_one = [&](const auto& self, const Part& part) -> void {
         if (part.node >= most_parts || is_leaf(part.node)) {
             parts[count++] = part;
             return;
         }
-        const std::size_t left = halve(part.node, part.centres);
+        const std::size_t left = halve(part);
         self(self, {2 * part.node, part.centres.first(left)});
         self(self, {2 * part.node + 1, part.centres.subspan(left)});
     };
-    split_top(split_top, {1, centres_});
-    workers.for_ranges(count, centres_.size() < least_items ? count : 1,
-                       [&](std::size_t begin, std::size_t end, std::uint32_t) {
-                           for (std::size_t p = begin; p < end; ++p)
-                               split(parts[p].node, parts[p].centres, boxes);
-                       });
-    for (std::size_t node = std::min(most_parts, items_.size()) - 1; node > 0; --node) join(node);
+    split_one(split_one, {1, centres_});
+    return count;
 }
 
 // Leaves are on two levels, since nodes are numbered without gaps.
@@ -71,7 +66,8 @@ std::size_t BoxTree::leaves_below(std::size_t node) const noexcept {
 }
 
 // Moves the centres of the left child of a node to the front, and returns their number.
-std::size_t BoxTree::halve(std::size_t node, std::span<Centre> centres) const noexcept {
+std::size_t BoxTree::halve(const Part& part) const noexcept {
+    const auto& [node, centres] = part;
     const std::size_t left = leaves_below(2 * node);
     const int axis = longest_axis(centres);
     std::nth_element(centres.begin(), centres.begin() + static_cast<std::ptrdiff_t>(left), centres.end(),
@@ -84,16 +80,21 @@ void BoxTree::join(std::size_t node) noexcept {
     extend(boxes_[node], boxes_[2 * node + 1]);
 }
 
-void BoxTree::split(std::size_t node, std::span<Centre> centres, std::span<const Box3f> boxes) noexcept {
+void BoxTree::join_top() noexcept {
+    for (std::size_t node = std::min(most_parts, items_.size()) - 1; node > 0; --node) join(node);
+}
+
+void BoxTree::split(const Part& part, std::span<const Box3f> boxes) noexcept {
+    const auto& [node, centres] = part;
     if (is_leaf(node)) {
         const std::uint32_t item = centres[0].item;
         boxes_[node] = boxes[item];
         items_[node - items_.size()] = item;
         return;
     }
-    const std::size_t left = halve(node, centres);
-    split(2 * node, centres.first(left), boxes);
-    split(2 * node + 1, centres.subspan(left), boxes);
+    const std::size_t left = halve(part);
+    split({2 * node, centres.first(left)}, boxes);
+    split({2 * node + 1, centres.subspan(left)}, boxes);
     join(node);
 }
 

@@ -7,6 +7,7 @@
 #include "base/parallel.hpp"
 #include "base/scene.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -27,8 +28,22 @@ public:
     void reserve(std::size_t items);
     // Splits at the median along the longest side of the box around the centres (J. L. Bentley,
     // Multidimensional binary search trees used for associative searching, CACM 18, 1975). Skips empty boxes.
-    // Enqueues at most one task; throws what the workers throw.
-    void build(std::span<const Box3f> boxes, Workers& workers);
+    void build(std::span<const Box3f> boxes) {
+        if (take(boxes)) split({1, centres_}, boxes);
+    }
+    // Enqueues at most one task, and throws what the workers throw; builds the same tree.
+    void build(std::span<const Box3f> boxes, Workers& workers) {
+        if (!take(boxes)) return;
+        // The top of the tree is split here, the parts below it by the workers, if there are enough items.
+        constexpr std::size_t least_items = 1024;
+        std::array<Part, most_parts> parts;
+        const std::size_t count = split_top(parts);
+        workers.for_ranges(count, centres_.size() < least_items ? count : 1,
+                           [&](std::size_t begin, std::size_t end, std::uint32_t) {
+                               for (std::size_t p = begin; p < end; ++p) split(parts[p], boxes);
+                           });
+        join_top();
+    }
 
     bool is_leaf(std::size_t node) const noexcept { return node >= items_.size(); }
     const Box3f& box(std::size_t node) const noexcept { return boxes_[node]; }
@@ -85,10 +100,15 @@ private:
         std::span<Centre> centres;
     };
 
+    static constexpr std::size_t most_parts = 16;
+
+    bool take(std::span<const Box3f> boxes); // whether there are items
+    std::size_t split_top(std::array<Part, most_parts>& parts) noexcept;
     std::size_t leaves_below(std::size_t node) const noexcept;
-    std::size_t halve(std::size_t node, std::span<Centre> centres) const noexcept;
+    std::size_t halve(const Part& part) const noexcept;
     void join(std::size_t node) noexcept; // its children's boxes
-    void split(std::size_t node, std::span<Centre> centres, std::span<const Box3f> boxes) noexcept;
+    void join_top() noexcept;
+    void split(const Part& part, std::span<const Box3f> boxes) noexcept;
 
     Array<Box3f> boxes_;         // one a node; the first is not used
     Array<std::uint32_t> items_; // one a leaf

@@ -24,6 +24,15 @@ struct Tet {
     std::uint32_t v[4];
 };
 
+// The facets of a tetrahedron, facet i opposite corner i; counter-clockwise from outside when it is positive.
+inline constexpr std::uint8_t facet_corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+
+// Such a tetrahedron has no facets.
+inline bool names_a_vertex_twice(const Tet& t) noexcept {
+    return t.v[0] == t.v[1] || t.v[0] == t.v[2] || t.v[0] == t.v[3] || t.v[1] == t.v[2] || t.v[1] == t.v[3] ||
+           t.v[2] == t.v[3];
+}
+
 struct Box3f {
     Vec3f min, max;
 };

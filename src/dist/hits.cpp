@@ -52,13 +52,10 @@ vox_dist_contact between(std::uint64_t body_a, std::uint64_t vertex, const Vec3d
     contact.vertex = vertex;
     contact.body_b = part.body;
     contact.tet = part.id_of_tet(hit.tet);
-    const auto corner = [&](std::size_t c) {
-        return part.positions.exact(part.tets[4 * std::size_t{hit.tet} + c]);
-    };
     PointBlock block;
     AccurateWeights weights;
     set(block.point, 0, p);
-    for (std::size_t c = 0; c < 4; ++c) set(block.corner[c], 0, corner(c));
+    for (std::size_t c = 0; c < 4; ++c) set(block.corner[c], 0, part.corner(hit.tet, c));
     fill_last_register(block, 1);
     weigh_accurately(block, 1, true, weights);
     for (std::size_t c = 0; c < 4; ++c) contact.weights[c] = weights.weight[c][0];

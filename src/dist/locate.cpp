@@ -1,8 +1,10 @@
-// Locates points by the rounds of a step, in a second grid whose meshes collide only with points.
+// Locates points by the rounds of a step, in a second grid whose meshes collide only with points; those
+// outside by the closest surface.
 #include "base/llu.hpp"
 #include "base/room.hpp"
 #include "base/structs.hpp"
 #include "dist/clusters.hpp"
+#include "dist/outside.hpp"
 #include "dist/rounds.hpp"
 
 #include <algorithm>
@@ -78,15 +80,20 @@ void vox_dist_scene::locate(const vox_positions* points, vox_dist_location* out_
     const VertexSource source{nullptr, &clusters, positions, mine.vertices};
     rounds.run({&source, count != 0 ? 1u : 0u}, failure);
     std::ranges::sort(rounds.vertex_hits, {}, order);
-    failure.agree(transport_);
-    constexpr vox_dist_location outside{0, 0, {}, VOX_NONE, 0};
-    std::fill_n(out_locations, count, outside);
+    std::uint64_t outside = count;
+    for (std::size_t i = 0; i < rounds.vertex_hits.size(); ++i)
+        outside -= i == 0 || rounds.vertex_hits[i].contact.vertex != rounds.vertex_hits[i - 1].contact.vertex;
+    failure.agree(transport_, &outside);
+    vox_dist_location none{};
+    none.rank = VOX_NONE;
+    std::fill_n(out_locations, count, none);
     for (const VertexHit& hit : rounds.vertex_hits) {
         vox_dist_location& location = out_locations[hit.contact.vertex];
         if (location.rank != VOX_NONE) continue;
-        location = {hit.contact.body_b, hit.contact.tet, {}, hit.contact.rank, hit.contact.interior};
+        location = {hit.contact.body_b, hit.contact.tet, VOX_LOCATION_INSIDE, hit.contact.rank, {}, 0};
         std::copy_n(hit.contact.weights, 4, location.weights);
     }
+    if (outside != 0) Outside(*this).run(positions, {out_locations, static_cast<std::size_t>(count)});
     counters_.messages = transport_.messages;
     counters_.collectives = transport_.collectives;
 }

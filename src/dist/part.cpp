@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <tuple>
 
 namespace vox::dist {
 namespace {
@@ -93,6 +94,30 @@ void Part::make_clusters(Memory* memory) {
     vertex_clusters.make(static_cast<std::uint32_t>(mine.size()), items_of_a_cluster,
                          [&](std::uint32_t i) { return positions.exact(mine[i]); });
     for (std::uint32_t& item : vertex_clusters.order) item = mine[item];
+}
+
+void Part::find_facets(Memory* memory) {
+    if (has_facets) return;
+    struct TetFacet {
+        std::array<std::uint32_t, 3> vertices;
+        std::uint32_t opposite, place;
+    };
+    Array<TetFacet> all(memory);
+    all.reserve(4 * std::size_t{tet_count});
+    for (std::uint32_t t = 0; t < tet_count; ++t) {
+        const std::uint32_t* const tet = tets.data() + 4 * std::size_t{t};
+        if (names_a_vertex_twice({tet[0], tet[1], tet[2], tet[3]})) continue;
+        for (std::uint32_t f = 0; f < 4; ++f) all.push_back({sorted_facet(tet, f), tet[f], 4 * t + f});
+    }
+    std::ranges::sort(all, {}, [](const TetFacet& f) { return std::tie(f.vertices, f.place); });
+    facets.clear();
+    for (std::size_t begin = 0, end; begin < all.size(); begin = end) {
+        bool one = true;
+        for (end = begin; end < all.size() && all[end].vertices == all[begin].vertices; ++end)
+            one &= all[end].opposite == all[begin].opposite;
+        for (std::size_t i = begin; one && i < end; ++i) facets.push_back(all[i].place);
+    }
+    has_facets = true;
 }
 
 void Part::read_positions(Memory* memory) {

@@ -5,6 +5,8 @@
 #include "dist/clusters.hpp"
 #include "dist/messages.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -26,10 +28,18 @@ void check_position(const Vec3d& p, Name&& name) {
     }
 }
 
+// Facets are matched by their vertices in ascending order.
+inline std::array<std::uint32_t, 3> sorted_facet(const std::uint32_t* tet, std::size_t facet) noexcept {
+    const auto& corners = facet_corners[facet];
+    std::array<std::uint32_t, 3> v{tet[corners[0]], tet[corners[1]], tet[corners[2]]};
+    std::ranges::sort(v);
+    return v;
+}
+
 struct Part {
     explicit Part(Memory* memory)
         : tets(memory), tet_ids(memory), tet_indices(memory), vertex_ids(memory), by_id(memory),
-          owned(memory), tet_clusters(memory), vertex_clusters(memory) {}
+          owned(memory), facets(memory), tet_clusters(memory), vertex_clusters(memory) {}
 
     // Checks and copies the caller's arrays; sorts tetrahedra by their numbers.
     void take(const vox_dist_part_desc& desc, const vox_mesh_desc& mesh);
@@ -49,7 +59,11 @@ struct Part {
     // The vertex with that number.
     std::optional<std::uint32_t> find(std::uint64_t id) const noexcept;
 
+    Vec3d corner(std::size_t tet, std::size_t c) const noexcept { return positions.exact(tets[4 * tet + c]); }
+
     void make_clusters(Memory* memory);
+    // Finds `facets`, the first time.
+    void find_facets(Memory* memory);
 
     vox_body mesh = VOX_NULL_BODY; // in the grid that finds contacts
     std::uint64_t body = 0;
@@ -62,8 +76,12 @@ struct Part {
     Array<std::uint32_t> by_id;       // vertices in the order of their numbers
     Array<std::uint8_t> owned;        // empty: all
 
+    // 4 * tetrahedron + facet for each facet of one tetrahedron only, or of doubled ones: the surface of the
+    // part, which a mesh of its own would have (vox_closest_hit).
+    Array<std::uint32_t> facets;
+
     Positions positions;
-    bool clustered = false;
+    bool clustered = false, has_facets = false;
     Clusters tet_clusters;    // near tetrahedra; the items are their vertices
     Clusters vertex_clusters; // near owned vertices
     Box3f tet_box, vertex_box;

@@ -167,21 +167,15 @@ void vox_dist_scene::read_positions() {
 void vox_dist_scene::exchange_overviews(Overview mine, const Failure& failure) {
     mine.result = failure.result();
     transport_.allgather(&mine, sizeof mine, overviews_.data());
-    counters_.replicated_bytes = sizeof mine;
+    counters_.replicated_bytes += sizeof mine;
     for (std::uint32_t rank = 0; rank < transport_.size(); ++rank)
         failure.throw_agreed(Failure::as_minimum(overviews_[rank].result, rank), transport_.rank());
     for (std::uint32_t rank = 1; rank < transport_.size(); ++rank)
         if (overviews_[rank].call != overviews_[0].call)
             throw Error(VOX_ERROR_INVALID_STATE, format("ranks 0 and %u call different functions", rank));
-    rank_count_ = 0;
-    const Overview& me = overviews_[transport_.rank()];
-    for (std::uint32_t rank = 0; rank < transport_.size(); ++rank) {
-        const Overview& other = overviews_[rank];
-        if (rank != transport_.rank() && me.collides_with(other) &&
-            (overlap(me.tets, other.vertices) || overlap(other.tets, me.vertices)))
-            ranks_[rank_count_++] = rank;
-    }
-    counters_.neighbours = rank_count_;
+    choose_ranks([](const Overview& a, const Overview& b) {
+        return a.collides_with(b) && (overlap(a.tets, b.vertices) || overlap(b.tets, a.vertices));
+    });
 }
 
 void vox_dist_scene::exchange(std::uint64_t* sent_bytes, Failure& failure) {

@@ -8,6 +8,7 @@
 
 #include <vox/vox_cell_size.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
@@ -88,9 +89,18 @@ struct vox_dist_scene {
 
     // Looks up where the positions of all parts are now, checks them and computes boxes.
     void read_positions();
-    // Exchanges overviews with all ranks, and throws the failure of the lowest rank that has one. Neighbours
-    // are then in ranks_.
+    // Exchanges overviews with all ranks, and throws the failure of the lowest rank that has one. The ranks
+    // with vertices or points near tetrahedra of this one, or the reverse, are then in ranks_.
     void exchange_overviews(vox::dist::Overview mine, const vox::dist::Failure& failure);
+    // Puts into ranks_ the other ranks for which meet(overview of this rank, overview of the other) holds.
+    template <class Meet>
+    void choose_ranks(Meet&& meet) {
+        rank_count_ = 0;
+        for (std::uint32_t rank = 0; rank < transport_.size(); ++rank)
+            if (rank != transport_.rank() && meet(overviews_[transport_.rank()], overviews_[rank]))
+                ranks_[rank_count_++] = rank;
+        counters_.neighbours = std::max<std::uint64_t>(counters_.neighbours, rank_count_);
+    }
     // Sends out_[i] to ranks_[i] and receives in_[i], for i below rank_count_. After a failure, here or
     // there, in_[i] are empty, and this rank goes on, as the others wait for it.
     void exchange(std::uint64_t* sent_bytes, vox::dist::Failure& failure);

@@ -91,10 +91,11 @@ public:
         throw Error(result, format("rank %u failed with %s; its vox_last_error says more", failed,
                                    vox_result_string(result)));
     }
-    // Takes part in the agreement that ends a collective function, and throws what it says.
-    void agree(Transport& transport) const {
+    // Takes part in the agreement that ends a collective function, and throws what it says. `sum` becomes the
+    // sum over all ranks.
+    void agree(Transport& transport, std::uint64_t* sum = nullptr) const {
         std::uint64_t minimum = as_minimum(result_, transport.rank());
-        transport.agree(&minimum, 1, nullptr, 0);
+        transport.agree(&minimum, 1, sum, sum ? 1 : 0);
         throw_agreed(minimum, transport.rank());
     }
 

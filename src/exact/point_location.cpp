@@ -1,5 +1,5 @@
-// The arithmetic of corner_volumes() and barycentric() (predicates.hpp) for many points at once, operation by
-// operation, with the same bits. Points that need exact arithmetic are left to those functions.
+// The arithmetic of corner_volumes() (predicates.hpp) for many points at once, operation by operation, with
+// the same bits. Points that need exact arithmetic are left to that function.
 #include "exact/point_location.hpp"
 
 #include "base/simd.hpp"
@@ -97,31 +97,6 @@ HWY_INLINE CertainLocations Locations(const PointBlock& block, std::size_t count
     return certain;
 }
 
-// Returns a bit for each point whose weights need exact arithmetic.
-HWY_INLINE std::uint64_t Weights(const PointBlock& block, std::size_t count, WeightBlock& out) {
-    const Doubles d;
-    const D zero = hn::Zero(d), one = hn::Set(d, 1.0);
-    std::uint64_t uncertain = 0;
-    for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-        D e[4][3];
-        const VolumesOf of = CornerVolumes(block, i, e);
-        const D total = hn::Add(hn::Add(hn::Add(of.volume[0], of.volume[1]), of.volume[2]), of.volume[3]);
-        const D error = hn::Add(hn::Max(hn::Max(of.error[0], of.error[1]), hn::Max(of.error[2], of.error[3])),
-                                hn::Set(d, underflow_error));
-        const auto certain = hn::Lt(error, hn::Mul(hn::Set(d, barycentric_error), hn::Abs(total)));
-        if (!hn::AllTrue(d, certain)) uncertain |= BitsOfMask(d, hn::Not(certain)) << i;
-        D miss[3] = {zero, zero, zero};
-        for (int c = 0; c < 4; ++c) {
-            const D t = hn::Div(of.volume[c], total);
-            const D weight = hn::IfThenElse(hn::Gt(t, zero), hn::Min(t, one), zero); // never -0
-            hn::Store(weight, d, out.weight[c] + i);
-            for (int a = 0; a < 3; ++a) miss[a] = hn::Add(miss[a], hn::Mul(weight, e[c][a]));
-        }
-        for (int a = 0; a < 3; ++a) hn::Store(miss[a], d, out.miss[a] + i);
-    }
-    return uncertain;
-}
-
 #else // without registers of doubles, every point is left to predicates.hpp
 
 CertainLocations Locations(const PointBlock& block, std::size_t count, VolumeBlock& volumes) {
@@ -140,16 +115,10 @@ CertainLocations Locations(const PointBlock& block, std::size_t count, VolumeBlo
     return {};
 }
 
-std::uint64_t Weights(const PointBlock&, std::size_t, WeightBlock&) { return ~std::uint64_t{0}; }
-
 #endif
 
 CertainLocations Locate(const PointBlock& block, std::size_t count, VolumeBlock& volumes) {
     return Locations(block, count, volumes);
-}
-
-std::uint64_t Weigh(const PointBlock& block, std::size_t count, WeightBlock& out) {
-    return Weights(block, count, out);
 }
 
 } // namespace HWY_NAMESPACE
@@ -161,21 +130,6 @@ namespace vox {
 
 CertainLocations locate(const PointBlock& block, std::size_t count, VolumeBlock& volumes) {
     return VOX_SIMD_DISPATCH(Locate)(block, count, volumes);
-}
-
-void weigh(const PointBlock& block, std::size_t count, WeightBlock& out) {
-    const auto exactly = [&out](std::size_t i, const Vec3d& p, const Vec3d(&corner)[4]) {
-        const std::array<double, 4> weights = barycentric(p, corner[0], corner[1], corner[2], corner[3]);
-        Vec3d miss{0, 0, 0};
-        for (std::size_t c = 0; c < 4; ++c) {
-            out.weight[c][i] = weights[c];
-            miss = miss + weights[c] * (corner[c] - p);
-        }
-        out.miss[0][i] = miss.x;
-        out.miss[1][i] = miss.y;
-        out.miss[2][i] = miss.z;
-    };
-    for_uncertain(VOX_SIMD_DISPATCH(Weigh)(block, count, out), block, count, exactly);
 }
 
 } // namespace vox

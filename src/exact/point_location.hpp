@@ -1,4 +1,4 @@
-// The exact location and the barycentric coordinates of many points in tetrahedra, a block at a time.
+// The exact location of many points in tetrahedra, a block at a time.
 #pragma once
 
 #include "exact/predicates.hpp"
@@ -67,14 +67,5 @@ struct CertainLocations {
 
 // Locates the first `count` points; results of others are unspecified. Reads and writes whole registers.
 CertainLocations locate(const PointBlock& block, std::size_t count, VolumeBlock& volumes);
-
-// The weights of points, and how far they miss each point: the sum of weight * (corner - point).
-struct WeightBlock {
-    alignas(64) double weight[4][point_block], miss[3][point_block];
-};
-
-// barycentric() for the first `count` points, which are in their tetrahedra, with the same bits. Reads and
-// writes whole registers.
-void weigh(const PointBlock& block, std::size_t count, WeightBlock& out);
 
 } // namespace vox

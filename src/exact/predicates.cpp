@@ -292,30 +292,4 @@ double exact_crossing(const Vec3d& from, const Vec3d& to, const Vec3d& a, const 
     return rounded_quotient(before, before - exact_volume(q[0], q[1], q[2], q[4]));
 }
 
-std::array<double, 4> barycentric(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c,
-                                  const Vec3d& d) {
-    const std::array<BoundedVolume, 4> bounded = corner_volumes(p, a, b, c, d);
-    double volume[4] = {bounded[0].volume, bounded[1].volume, bounded[2].volume, bounded[3].volume};
-    double total = volume[0] + volume[1] + volume[2] + volume[3];
-    const double error = std::max({bounded[0].error, bounded[1].error, bounded[2].error, bounded[3].error});
-    // A volume is off by `error` at most, the sum by four times as much. If `error` is below that part of the
-    // sum, a weight is off by at most 5 times that. Otherwise the exact volumes are rounded once. They
-    // have one sign, so nothing cancels in their sum.
-    if (!(error < barycentric_error * std::abs(total))) {
-        const auto q = in_units(std::array{a, b, c, d, p});
-        const Integer exact[4] = {exact_volume(q[4], q[1], q[2], q[3]), exact_volume(q[0], q[4], q[2], q[3]),
-                                  exact_volume(q[0], q[1], q[4], q[3]), exact_volume(q[0], q[1], q[2], q[4])};
-        int bits = 0; // of the largest volume, which becomes about 1; what then underflows is negligible
-        for (const Integer& v : exact) bits = std::max(bits, bit_count(v));
-        for (int i = 0; i < 4; ++i) volume[i] = scaled(exact[i], bits);
-        total = volume[0] + volume[1] + volume[2] + volume[3];
-    }
-    std::array<double, 4> weights;
-    for (std::size_t i = 0; i < 4; ++i) {
-        const double weight = volume[i] / total;
-        weights[i] = weight > 0 ? std::min(weight, 1.0) : 0; // never -0
-    }
-    return weights;
-}
-
 } // namespace vox

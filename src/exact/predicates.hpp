@@ -181,14 +181,6 @@ inline Containment locate(const Vec3d& p, const Vec3d& a, const Vec3d& b, const 
     return in_solid;
 }
 
-// Volumes that are off by less than this part of their sum are accurate enough for barycentric().
-inline constexpr double barycentric_error = 0x1p-44;
-
-// The barycentric coordinates of a point p in the closed tetrahedron abcd of non-zero volume. Each is in [0,
-// 1] and within 2^-41 of the true one.
-std::array<double, 4> barycentric(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c,
-                                  const Vec3d& d);
-
 // Barycentric coordinates of any point, each rounded to double once. Slow: see exact/accurate.hpp.
 std::array<double, 4> exact_weights(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c,
                                     const Vec3d& d);

@@ -7,7 +7,7 @@
 #include "base/room.hpp"
 #include "base/vectors.hpp"
 #include "depth/closest.hpp"
-#include "exact/point_location.hpp"
+#include "exact/accurate.hpp"
 #include "exact/predicates.hpp"
 #include "grid/pairs.hpp"
 #include "mesh/filter.hpp"
@@ -418,12 +418,6 @@ const Hit& hit_of(const ConstraintSources& from, std::uint32_t source) noexcept 
                                        : source];
 }
 
-void put(double (&to)[3][point_block], std::size_t i, const Vec3d& x) noexcept {
-    to[0][i] = x.x;
-    to[1][i] = x.y;
-    to[2][i] = x.z;
-}
-
 // Contacts that are weighed together. Their tetrahedra and positions are anywhere in memory, and waiting for
 // them takes longer than the arithmetic: while a block is written, those of the next one arrive in the cache.
 struct HitBlock {
@@ -448,18 +442,15 @@ struct HitBlock {
     void gather(std::span<const Body> bodies, PointBlock& block) const noexcept {
         for (std::size_t i = 0; i < count; ++i) {
             const Body& b = bodies[hits[i].body_b];
-            put(block.point, i, bodies[hits[i].body_a].positions.exact(hits[i].vertex));
+            set(block.point, i, bodies[hits[i].body_a].positions.exact(hits[i].vertex));
             for (std::size_t c = 0; c < 4; ++c)
-                put(block.corner[c], i, b.positions.exact(b.tets[hits[i].tet].v[c]));
+                set(block.corner[c], i, b.positions.exact(b.tets[hits[i].tet].v[c]));
         }
-        for (std::size_t i = count; i % 8; ++i) { // whole registers are computed
-            put(block.point, i, {0, 0, 0});
-            for (auto& corner : block.corner) put(corner, i, {0, 0, 0});
-        }
+        fill_last_register(block, count);
     }
 };
 
-// Writes all but the previous one.
+// Writes all but the previous one. `miss` is the sum of weight * (corner - p).
 void write_vertex(const ConstraintSources& from, const Hit& hit, std::uint32_t source, const Vec3d& p,
                   const std::array<double, 4>& weights, const Vec3d& miss, vox_constraint& c) noexcept {
     const Body &a = from.bodies[hit.body_a], &b = from.bodies[hit.body_b];
@@ -523,7 +514,7 @@ void Constraints::write_inside(const ConstraintSources& from, const Run& run, Pr
     std::uint32_t pair = run.pair;
     previous.begin(now_.pairs[pair]);
     PointBlock block;
-    WeightBlock weights;
+    AccurateWeights weights;
     HitBlock now, next;
     next.fetch(from, sources.subspan(run.begin));
     next.prefetch_positions(bodies);
@@ -532,7 +523,7 @@ void Constraints::write_inside(const ConstraintSources& from, const Run& run, Pr
         next.fetch(from, sources.subspan(begin + now.count));
         now.gather(bodies, block);
         next.prefetch_positions(bodies);
-        weigh(block, now.count, weights);
+        weigh_accurately(block, now.count, true, weights);
         for (std::size_t i = 0; i < now.count; ++i) {
             const Hit& hit = now.hits[i];
             const Body &a = bodies[hit.body_a], &b = bodies[hit.body_b];
@@ -546,9 +537,14 @@ void Constraints::write_inside(const ConstraintSources& from, const Run& run, Pr
             const auto at = [i](const double(&of)[3][point_block]) {
                 return Vec3d{of[0][i], of[1][i], of[2][i]};
             };
-            const auto& w = weights.weight;
-            write_vertex(from, hit, sources[begin + i], at(block.point), {w[0][i], w[1][i], w[2][i], w[3][i]},
-                         at(weights.miss), c);
+            const Vec3d p = at(block.point);
+            std::array<double, 4> w;
+            Vec3d miss{0, 0, 0};
+            for (std::size_t k = 0; k < 4; ++k) {
+                w[k] = weights.weight[k][i];
+                miss = miss + w[k] * (at(block.corner[k]) - p);
+            }
+            write_vertex(from, hit, sources[begin + i], p, w, miss, c);
         }
     }
 }

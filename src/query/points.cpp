@@ -97,6 +97,7 @@ void Queries::find_all(std::span<const Vec3d> points, QueryMeshes which, std::pm
 
 void Queries::points(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
                      HitList<vox_point_hit>& hits) const {
+    Weigher weigher(Weigher::Of::inside);
     for_found(points, which, memory, [&](std::size_t point, std::span<const PointHit> found) {
         const bool any_interior =
             std::any_of(found.begin(), found.end(), [](const PointHit& hit) { return hit.interior; });
@@ -106,12 +107,8 @@ void Queries::points(std::span<const Vec3d> points, QueryMeshes which, std::pmr:
             if (any_interior && !hit.interior) continue;
             vox_point_hit* const out = hits.add();
             if (!out) continue; // no room
-            const LeafTets tets = tets_of(leaves_[hit.leaf]);
-            const std::size_t t = hit.place;
             *out = {static_cast<std::uint32_t>(point), meshes_[hit.mesh].id, hit.tet, 0, {}};
-            std::ranges::copy(barycentric(points[point], tets.corner(t, 0), tets.corner(t, 1),
-                                          tets.corner(t, 2), tets.corner(t, 3)),
-                              out->weights);
+            weigher.add(points[point], tets_of(leaves_[hit.leaf]), hit.place, out->weights);
         }
     });
 }

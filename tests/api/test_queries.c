@@ -36,7 +36,8 @@ static void check_hits(const vox_point_hit* found, const vox_point_hit* expected
         for (int c = 0; c < 4; ++c) {
             const double weight = found[i].weights[c];
             ck_assert(weight >= 0 && weight <= 1);
-            ck_assert_double_le(fabs(weight - expected[i].weights[c]), 0x1p-41);
+            ck_assert_double_le(fabs(weight - expected[i].weights[c]),
+                                0x1p-52 * expected[i].weights[c] + 0x1p-57);
         }
     }
 }

@@ -80,6 +80,12 @@ inline Scene lattice(std::uint64_t seed) {
             for (double& number : body.xyz)
                 number = static_cast<float>(number + static_cast<double>(below(random, 1000)) / 9973);
         if (below(random, 8) == 0) body.tets.clear();
+        if (below(random, 4) == 0 && !body.tets.empty()) { // the first one twice, and one more across a facet
+            const auto last = static_cast<std::uint32_t>(body.vertices() - 1);
+            const auto v = std::to_array({body.tets[0], body.tets[1], body.tets[2], body.tets[3]});
+            body.tets.insert(body.tets.end(), v.begin(), v.end());
+            if (v[3] != last) body.tets.insert(body.tets.end(), {v[0], v[2], v[1], last});
+        }
         scene.push_back(std::move(body));
     }
     return scene;

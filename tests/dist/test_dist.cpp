@@ -100,35 +100,36 @@ void check_send(Run& run, vox_dist_scene* scene, const vox_dist_contact_view& co
         if (back[i] != ~out[i]) return note(run, "an item went back to another vertex");
 }
 
-// Points on multiples of 1/4: each is in the tetrahedron that one grid names.
+// Points on multiples of 1/4, inside and outside, and some on none: what one locator says, bit for bit.
 void check_locate(Run& run, const vox_locator* locator, vox_dist_scene* scene, std::uint32_t rank) {
+    constexpr std::uint32_t count = 40;
     Random random(rank);
     std::vector<double> points;
-    for (int i = 0; i < 3 * 20; ++i) points.push_back(below(random, 21) / 4.0);
-    std::vector<vox_dist_location> found(20);
-    const vox_positions asked = vox_double_positions(points.data(), 20);
-    if (vox_dist_scene_locate(scene, &asked, found.data()) != VOX_OK) return note(run, vox_last_error());
-    for (std::uint32_t i = 0; i < 20; ++i) {
-        vox_point_hit hits[64];
-        std::uint64_t count = 0;
-        const vox_positions at = vox_double_positions(&points[3 * i], 1);
-        (void)vox_locator_find_point_hits(locator, &at, nullptr, hits, 64, &count);
-        const vox_point_hit* first = nullptr;
+    for (std::uint32_t i = 0; i < 3 * count; ++i)
+        points.push_back(below(random, 41) / 4.0 - 2.5 + (i < 60 ? 0 : below(random, 1000) / 9973.0));
+    vox_dist_location found[count];
+    vox_location expected[count];
+    const vox_positions asked = vox_double_positions(points.data(), count);
+    if (vox_dist_scene_locate(scene, &asked, found) != VOX_OK) return note(run, vox_last_error());
+    if (vox_locator_locate(locator, &asked, nullptr, expected) != VOX_OK) return note(run, vox_last_error());
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const vox_location& one = expected[i];
         std::uint64_t body = 0;
-        for (std::uint64_t h = 0; h < count; ++h) {
-            std::uint64_t number;
-            (void)vox_locator_get_user_data(locator, hits[h].body, &number);
-            if (!first || number < body) first = &hits[h], body = number;
-        }
-        if ((found[i].rank == VOX_NONE) != !first)
-            return note(run, "a point is found, or not, unlike in one grid");
-        if (!first) continue;
-        vox_location location; // in the lowest body by id, which may be another
-        (void)vox_locator_locate(locator, &at, nullptr, &location);
-        const bool same_body = location.body == first->body;
-        if (found[i].body != body || found[i].tet != first->tet ||
-            (same_body && !std::equal(location.weights, location.weights + 4, found[i].weights)))
-            return note(run, "a point is in another tetrahedron than in one grid");
+        if (one.body != VOX_NULL_BODY) (void)vox_locator_get_user_data(locator, one.body, &body);
+        if (found[i].state != one.state || found[i].body != body || found[i].tet != one.tet ||
+            std::memcmp(found[i].weights, one.weights, sizeof one.weights) != 0 ||
+            std::memcmp(&found[i].distance, &one.distance, sizeof one.distance) != 0)
+            return note(run, "point " + std::to_string(i) + ": state " + std::to_string(found[i].state) +
+                                 ", body " + std::to_string(found[i].body) + ", tet " +
+                                 std::to_string(found[i].tet) + "; one locator has " +
+                                 std::to_string(one.state) + ", " + std::to_string(body) + ", " +
+                                 std::to_string(one.tet));
+        const bool none = one.state == VOX_LOCATION_NONE;
+        if (none != (found[i].rank == VOX_NONE)) return note(run, "the rank of a point in no body");
+        if (none) continue;
+        const auto& there = share_of(run, body, found[i].rank).tet_ids;
+        if (std::find(there.begin(), there.end(), one.tet) == there.end())
+            return note(run, "the tetrahedron of a point is not on that rank");
     }
 }
 

@@ -363,18 +363,19 @@ START_TEST(a_part_that_moves_to_other_memory) {
     const vox_positions places[2] = {vox_double_positions(xyz[0][0], 4), vox_double_positions(xyz[1][0], 4)};
     vox_dist_location found{};
     ck_ok(vox_dist_scene_locate(scene, &asked, &found));
-    ck_assert_uint_eq(found.rank, VOX_NONE);
+    ck_assert_uint_eq(found.state, VOX_LOCATION_OUTSIDE);
+    ck_assert(std::abs(found.distance - 0.8 / std::sqrt(3.0)) < 1e-15);
     ck_ok(vox_dist_scene_bind_positions(scene, 5, &places[1]));
     ck_ok(vox_dist_scene_locate(scene, &asked, &found));
     ck_assert_uint_eq(found.rank, 0);
     ck_assert_uint_eq(found.body, 5);
-    ck_assert_uint_eq(found.interior, 1);
+    ck_assert_uint_eq(found.state, VOX_LOCATION_INSIDE);
     ck_fails(vox_dist_scene_bind_positions(scene, 6, &places[0]), VOX_ERROR_INVALID_HANDLE,
              "no part of body 6");
     ck_ok(vox_dist_scene_remove(scene, 5));
     ck_ok(vox_dist_scene_locate(scene, &asked, &found));
     ck_assert_uint_eq(found.rank, VOX_NONE);
-    ck_assert_uint_eq(found.body | found.tet | found.interior, 0);
+    ck_assert_uint_eq(found.body | found.tet | static_cast<std::uint32_t>(found.state), 0);
     ck_fails(vox_dist_scene_remove(scene, 5), VOX_ERROR_INVALID_HANDLE, "no part of body 5");
     ck_fails(vox_dist_scene_bind_positions(scene, 5, &places[1]), VOX_ERROR_INVALID_HANDLE,
              "no part of body 5");

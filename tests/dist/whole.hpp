@@ -5,6 +5,7 @@
 #include "dist/scenes.hpp"
 #include "exact/predicates.hpp" // of src/
 
+#include <numeric>
 #include <set>
 #include <string>
 #include <tuple>
@@ -53,14 +54,18 @@ public:
     std::set<std::uint64_t> bodies; // with a part here
 };
 
-// All bodies in one grid, which borrows `floats`.
+// All bodies in one grid, in the order of their numbers. It borrows `floats`.
 inline vox_grid* whole(const Scene& scene, std::vector<std::vector<float>>& floats) {
     vox_grid_desc desc = vox_default_grid_desc();
     desc.flags = 0;
     vox_grid* grid = nullptr;
     if (vox_grid_create(&desc, &grid) != VOX_OK) return nullptr;
     floats.assign(scene.size(), {});
-    for (std::size_t b = 0; b < scene.size(); ++b) {
+    std::vector<std::size_t> order(scene.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return scene[a].number < scene[b].number; });
+    for (const std::size_t b : order) {
         const Body& body = scene[b];
         for (const double number : body.xyz) floats[b].push_back(static_cast<float>(number));
         vox_mesh_desc mesh =

@@ -1,4 +1,6 @@
 // The tetrahedra that segments pass through, by definition: rational numbers, every tetrahedron tried.
+#include <thread> // before check.h, which defines fail()
+
 #include "base/simd.hpp"
 #include "internal/exact_queries.hpp"
 
@@ -299,6 +301,38 @@ START_TEST(many) {
 }
 END_TEST
 
+// The first call of a locator finds what is across facets; several threads may make it.
+START_TEST(threads_ask_first) {
+    Random random{5};
+    const QueryDefinition cube = definition_of(kuhn_block(4, 4, 4, {0, 0, 0}, 1));
+    const Segments segments = segments_in(cube, random, 400);
+    std::vector<vox_body> ids;
+    const std::vector<vox_track_piece> expected = find_all(locator_of({cube}, ids), segments);
+    for (int round = 0; round < 5; ++round) {
+        const OwnLocator locator = locator_of({cube}, ids);
+        std::vector<std::vector<vox_track_piece>> found(4, std::vector<vox_track_piece>(expected.size()));
+        std::uint64_t counts[4] = {};
+        std::vector<std::thread> threads;
+        for (std::size_t t = 0; t < found.size(); ++t)
+            threads.emplace_back([&, t] {
+                const vox_positions from = vox_double_positions(&segments.from[0].x, segments.from.size()),
+                                    to = vox_double_positions(&segments.to[0].x, segments.to.size());
+                (void)vox_locator_find_tracks(locator.get(), &from, &to, nullptr, found[t].data(),
+                                              found[t].size(), &counts[t]);
+            });
+        for (std::thread& thread : threads) thread.join();
+        for (std::size_t t = 0; t < found.size(); ++t) {
+            ck_assert_uint_eq(counts[t], expected.size());
+            for (std::size_t i = 0; i < expected.size(); ++i) {
+                vox_track_piece piece = found[t][i];
+                piece.body = expected[i].body; // of another grid
+                ck_assert_mem_eq(&piece, &expected[i], sizeof piece);
+            }
+        }
+    }
+}
+END_TEST
+
 START_TEST(errors) {
     std::vector<vox_body> ids;
     const OwnLocator locator = locator_of({definition_of(kuhn_block(1, 1, 1, {0, 0, 0}, 1))}, ids);
@@ -323,4 +357,7 @@ END_TEST
 
 } // namespace
 
-SUITE(tracks) { tcase_add_each(add_case(suite, "tracks"), by_definition, parts, bad_shapes, many, errors); }
+SUITE(tracks) {
+    tcase_add_each(add_case(suite, "tracks"), by_definition, parts, bad_shapes, many, threads_ask_first,
+                   errors);
+}

@@ -118,7 +118,8 @@ static inline size_t check_contacts(vox_grid* grid, const solid* solids, uint32_
         ck_assert_uint_eq(c->element_b, e->tet);
         for (uint32_t k = 0; k < 4; ++k) {
             ck_assert_uint_eq(c->vertices[1 + k], solids[e->body_b].tets[4 * e->tet + k]);
-            ck_assert_double_le(fabs(-c->weights[1 + k] - e->barycentric[k]), 0x1p-41);
+            ck_assert_double_le(fabs(-c->weights[1 + k] - e->barycentric[k]),
+                                0x1p-52 * e->barycentric[k] + 0x1p-57);
         }
         ++vertices;
     }

@@ -749,6 +749,7 @@ namespace Voxtet
         /// <summary>tetrahedron of body_b: the lowest that contains the vertex; with a face, the tetrahedron behind
         /// it.</summary>
         public uint element_b;
+        /// <summary>of corners of a tetrahedron: rounded as in vox_location (vox_query.h)</summary>
         public Double5 weights;
         /// <summary>a unit vector out of body_b, the way for body_a</summary>
         public Double3 normal;
@@ -997,7 +998,7 @@ namespace Voxtet
         public uint tet;
         /// <summary>0</summary>
         public uint reserved;
-        /// <summary>of the tetrahedron's corners, in [0, 1], each within 2^-41 of the true one</summary>
+        /// <summary>of the tetrahedron's corners, in [0, 1], as in vox_location</summary>
         public Double4 weights;
     }
 

@@ -46,5 +46,5 @@ with voxtet.mpi.Scene(world) as scene:
     places = np.array([[-0.25, -0.25, -0.25], [0.75, 0.5, 0.5], [9.0, 9.0, 9.0]])
     found = scene.locate(places if world.rank == 0 else places[:0])
     if world.rank == 0:
-        inside = found.rank != voxtet.mpi.NONE
+        inside = found.state == voxtet.mpi.INSIDE
         print(f"forces add up to {total:.3f}; {np.count_nonzero(inside)} of 3 points are in bodies {found.body[inside].tolist()}")

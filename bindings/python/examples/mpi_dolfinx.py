@@ -72,7 +72,7 @@ mine = points[rank::world.Get_size()].copy()
 start = time.perf_counter()
 located = scene.locate(mine)
 seconds = world.allreduce(time.perf_counter() - start, MPI.MAX)
-missing = world.reduce(int(np.count_nonzero(located.rank == voxtet.mpi.NONE)))
+missing = world.reduce(int(np.count_nonzero(located.state != voxtet.mpi.INSIDE)))
 if rank == 0:
     print(f"{len(points)} points: {missing} in no tetrahedron, {1e6 * seconds / len(points):.2f} microseconds each")
 

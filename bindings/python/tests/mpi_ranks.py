@@ -103,13 +103,13 @@ def main():
         assert np.array_equal(arrived, np.stack([of_tets.vertex, of_tets.tet], axis=1) + of_tets.body_a[:, None] * 0.5)
         assert np.array_equal(scene.send(arrived, side="tets"), sent)
 
-        # Points on vertices, edges and facets: each is found once, in the tetrahedron that one rank alone finds.
+        # Points on vertices, edges and facets, and outside: each has the tetrahedron that one rank alone finds.
         random = np.random.default_rng(rank)
         points = random.integers(-2, 30, (500, 3)) * 0.125
         expected, located = alone.locate(points), scene.locate(points)
-        for name in ("body", "tet", "weights", "interior"):
+        for name in ("body", "tet", "state", "weights", "distance"):
             assert np.array_equal(located[name], expected[name]), name
-        assert 0 < np.count_nonzero(located.rank == voxtet.mpi.NONE) < len(points)
+        assert 0 < np.count_nonzero(located.state == voxtet.mpi.OUTSIDE) < len(points)
 
         # Moved in place, everywhere alike.
         for body, (here, _) in parts.items():

@@ -45,8 +45,8 @@ class vox_dist_contact_view(Structure):
 
 
 class vox_dist_location(Structure):
-    _fields_ = [("body", c_uint64), ("tet", c_uint64), ("weights", c_double * 4), ("rank", c_uint32),
-                ("interior", c_uint32)]
+    _fields_ = [("body", c_uint64), ("tet", c_uint64), ("state", c_int32), ("rank", c_uint32), ("weights", c_double * 4),
+                ("distance", c_double)]
 
 
 class vox_dist_cost(Structure):

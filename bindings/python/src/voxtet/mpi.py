@@ -59,13 +59,15 @@ class SceneContacts(Records):
 
 
 class SceneLocations(Records):
-    """Where points are: body, tetrahedron and its rank, weights of its corners. `rank` is NONE for a point in no tetrahedron."""
+    """Where points are: body, tetrahedron and its rank, weights of its corners. `state` is INSIDE or OUTSIDE; a point outside has
+    the closest tetrahedron, the weights of the closest point, and its distance. Without any tetrahedron, `rank` is NONE."""
 
     body: NDArray[np.uint64]
     tet: NDArray[np.uint64]
-    weights: NDArray[np.float64]
+    state: NDArray[np.int32]
     rank: NDArray[np.uint32]
-    interior: NDArray[np.uint32]
+    weights: NDArray[np.float64]
+    distance: NDArray[np.float64]
 
 
 class SceneCosts(Records):
@@ -75,7 +77,8 @@ class SceneCosts(Records):
     seconds: NDArray[np.float64]
 
 
-NONE = _c.VOX_NONE  # SceneLocations.rank of a point in no tetrahedron
+NONE = _c.VOX_NONE  # SceneLocations.rank where there is no tetrahedron
+INSIDE, OUTSIDE = _c.LocationState.INSIDE, _c.LocationState.OUTSIDE  # SceneLocations.state
 _SIDES = {"vertices": _dist.VERTICES, "tets": _dist.TETS}
 
 
@@ -389,8 +392,8 @@ class Scene:
         return out[0] | out[1] << 64
 
     def locate(self, points: Any) -> SceneLocations:
-        """By all ranks, each with points of its own, (n, 3). The body and the tetrahedron that contain each point: one, the same for
-        any partition."""
+        """By all ranks, each with points of its own, (n, 3). The body and the tetrahedron that contain each point, or the closest
+        ones: the same for any partition, bit for bit."""
         with _Calls(self) as pointer:
             try:
                 found = point_rows(points)

@@ -602,6 +602,7 @@ pub struct vox_constraint {
     /// tetrahedron of body_b: the lowest that contains the vertex; with a face, the tetrahedron behind it. Triangle of
     /// a shape; VOX_NONE if it has none
     pub element_b: u32,
+    /// of corners of a tetrahedron: rounded as in vox_location (vox_query.h)
     pub weights: [f64; 5],
     /// a unit vector out of body_b, the way for body_a
     pub normal: [f64; 3],
@@ -868,7 +869,7 @@ pub struct vox_point_hit {
     pub tet: u32,
     /// 0
     pub reserved: u32,
-    /// of the tetrahedron's corners, in [0, 1], each within 2^-41 of the true one
+    /// of the tetrahedron's corners, in [0, 1], as in vox_location
     pub weights: [f64; 4],
 }
 
