@@ -362,7 +362,7 @@ void Constraints::write_others(const ConstraintSources& from, const Run& run, Pr
     }
 }
 
-// The constraints of a mesh with a shape, of one kind.
+// A mesh with a shape.
 void Constraints::write_shapes(const ConstraintSources& from, const Run& run, Previous& previous) noexcept {
     const auto of_source = [&](std::uint32_t source) {
         return std::ranges::upper_bound(from.shapes, source, {}, &ShapeRun::first) - 1;
@@ -377,31 +377,29 @@ void Constraints::write_shapes(const ConstraintSources& from, const Run& run, Pr
         vox_constraint& c = now_.all[i];
         c = {};
         write_pair(a, b, run.kind, run.pair, c);
-        Vec3d point{0, 0, 0};
-        if (found->edges.empty()) {
-            const ShapeVertex& contact = found->vertices[at];
-            c.count_a = c.count = 1;
-            c.vertices[0] = contact.vertex;
-            c.weights[0] = 1;
+        const auto write_common = [&c](const auto& contact) {
             c.element_b = contact.element;
             c.state = contact.state;
             c.gap = contact.gap;
-            c.time = contact.time;
             write_vector(c.normal, vector_of(contact.normal));
-            point = a.positions.exact(contact.vertex);
+        };
+        c.count_a = c.count = 1;
+        c.weights[0] = c.time = 1;
+        if (found->edges.empty()) {
+            const ShapeVertex& contact = found->vertices[at];
+            write_common(contact);
+            c.vertices[0] = contact.vertex;
+            c.time = contact.time;
         } else {
             const ShapeEdge& contact = found->edges[at];
+            write_common(contact);
             c.count_a = c.count = contact.count;
             std::copy_n(contact.vertices, 3, c.vertices);
             std::copy_n(contact.weights, 3, c.weights);
-            c.element_b = contact.element;
-            c.state = contact.state;
-            c.gap = contact.gap;
-            c.time = 1;
-            write_vector(c.normal, vector_of(contact.normal));
-            for (std::uint32_t v = 0; v < c.count; ++v)
-                point = point + c.weights[v] * a.positions.exact(c.vertices[v]);
         }
+        Vec3d point{0, 0, 0};
+        for (std::uint32_t v = 0; v < c.count; ++v)
+            point = point + c.weights[v] * a.positions.exact(c.vertices[v]);
         write_vector(c.position, point);
         c.offset = c.gap - dot(vector_of(c.normal), point);
         c.previous = previous.find(run.kind, key_of(c));
@@ -551,14 +549,10 @@ void Constraints::write_inside(const ConstraintSources& from, const Run& run, Pr
 
 // ---- all of them -----------------------------------------------------------------------------------
 
-namespace {
-
-bool has_shape(const ConstraintSources& from, const IdPair& pair) noexcept {
+static bool has_shape(const ConstraintSources& from, const IdPair& pair) noexcept {
     return !from.shapes.empty() && (from.bodies[body_index(from.bodies, pair.body_a)].shape ||
                                     from.bodies[body_index(from.bodies, pair.body_b)].shape);
 }
-
-} // namespace
 
 void Constraints::write(const ConstraintSources& from, std::size_t begin, std::size_t end) noexcept {
     Previous previous(last_), previous_inside(last_);

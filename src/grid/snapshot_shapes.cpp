@@ -10,8 +10,9 @@ namespace vox {
 void Snapshot::check(const vox_grid& grid) {
     for_each_mesh(grid, [](vox_body id, const Mesh& mesh) {
         if (mesh.shape() && mesh.shape()->kind() == VOX_SHAPE_FIELD)
-            throw Error(VOX_ERROR_INVALID_STATE,
-                        format("body %" PRIu32 " is a shape with a field, whose function cannot be saved", id));
+            throw Error(
+                VOX_ERROR_INVALID_STATE,
+                format("body %" PRIu32 " is a shape with a field, whose function cannot be saved", id));
     });
 }
 
@@ -57,7 +58,8 @@ void Snapshot::load_shape(SnapshotChunk& in, Loading& to) {
     desc.triangle_count = in.u64();
     const bool has_heights = kind == VOX_SHAPE_HEIGHTFIELD;
     if (has_heights && points != std::uint64_t{desc.columns} * desc.rows)
-        in.refuse(format("%" PRIu64 " heights, expected %" PRIu32 " * %" PRIu32, points, desc.columns, desc.rows));
+        in.refuse(
+            format("%" PRIu64 " heights, expected %" PRIu32 " * %" PRIu32, points, desc.columns, desc.rows));
     in.expect(points, has_heights ? 8 : 24, "points");
     Array<double> numbers(static_cast<std::size_t>(has_heights ? points : 3 * points), memory);
     for (double& number : numbers) number = in.real<double>();

@@ -41,7 +41,7 @@ public:
 
     // Returns false if p is further outside than `reach`, which is not negative; `out` is unspecified then.
     virtual bool look(const Vec3d& p, double reach, ShapePoint& out) const = 0;
-    // The same for at most most_points points. Returns a bit for each.
+    // Looks at most_points points or fewer. Returns a bit for each.
     static constexpr std::size_t most_points = 8;
     virtual std::uint32_t look(std::span<const Vec3d> points, double reach, ShapePoint* out) const;
     // True only if all points within `radius` of `centre` are outside, and further away than `reach`.
@@ -49,8 +49,8 @@ public:
     // When a point that moves in a straight line, and begins outside, first meets the shape: from 0 to 1 and
     // never too late, with what it sees there; no_shape_meeting if it never does.
     virtual double meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at) const;
-    // What make_shape() makes the same of, with views of the shape's arrays; of a heightfield, positions are
-    // in place of heights.
+    // A desc of which make_shape() makes the same shape, with views of its arrays. A heightfield has
+    // positions in place of heights.
     virtual vox_shape_desc desc() const noexcept = 0;
     // Flat sides, which edges of meshes pass through; null for a shape without.
     virtual const ShapeFacets* facets() const noexcept { return nullptr; }
@@ -70,7 +70,7 @@ std::shared_ptr<const RigidShape> make_shape(const vox_shape_desc& desc, std::pm
 class ShapePlace {
 public:
     ShapePlace() noexcept : ShapePlace(nullptr) {}
-    // As vox_body_set_transform; null: as it was given.
+    // The matrix is that given to vox_body_set_transform; null: the shape stands as it was given.
     explicit ShapePlace(const double* matrix) noexcept;
 
     // Throws INVALID_ARGUMENT for a matrix that is not of this kind.

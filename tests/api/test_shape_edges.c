@@ -1,5 +1,5 @@
-/* Shapes with flat sides: the same contacts as those of a mesh with the same surface, blades that are found wherever they
- * cross, and snapshots. */
+/* Shapes with flat sides: the same contacts as those of a mesh with the same surface, blades that are found
+ * wherever they cross, and snapshots. */
 #include <math.h>
 #include <string.h>
 
@@ -28,7 +28,8 @@ static double volume(const body* b, const uint32_t* t) {
     for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 3; ++k)
             e[i][k] = (double)b->positions[3 * t[i + 1] + k] - (double)b->positions[3 * t[0] + k];
-    return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) - e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
+    return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) -
+           e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
            e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
 }
 
@@ -186,7 +187,8 @@ START_TEST(blade_through_a_ball) {
 }
 END_TEST
 
-/* A needle of one segment through a block enters and leaves by a face each, or by more where it meets edges. */
+/* A needle of one segment through a block enters and leaves by a face each, or by more where it meets edges.
+ */
 START_TEST(needle_through_a_block) {
     body block = make_block(&five_cut, 2, 2, 2);
     const double positions[6] = {0.3, 0.4, -5, 0.3, 0.4, 5};
@@ -325,7 +327,8 @@ START_TEST(snapshots_of_shapes) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_each(tests, solid_as_mesh, blade_through_a_ball, needle_through_a_block, at_rest, snapshots_of_shapes);
+    tcase_add_each(tests, solid_as_mesh, blade_through_a_ball, needle_through_a_block, at_rest,
+                   snapshots_of_shapes);
 }
 
 SUITE(shape_edges) { add_for_each_engine(suite, add_tests); }

@@ -18,7 +18,7 @@ def stages_of_code(text):
     return re.findall(r'"(\w+)"', re.search(r"stage_names\[\] = \{(.*?)\}", text, flags=re.S)[1])
 
 
-OF_STEP = {"edges", "margin"}  # of either engine
+OF_STEP = {"edges", "margin", "shapes"}  # of either engine
 
 
 def stages_of_profile(text):
