@@ -413,7 +413,7 @@ class Grid(Results):
             self._refuse_positions(id, "removal of the mesh")
             vox.vox_body_remove(self._pointer, id)
             for of_bodies in (self._kept, self._tags, self._mapped, self._fields):
-                of_bodies.pop(id, None)  # type: ignore[attr-defined]
+                of_bodies.pop(id, None)
 
     def _ids(self) -> NDArray[np.uint32]:
         with self._lock:

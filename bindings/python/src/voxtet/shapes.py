@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import dataclasses
 from typing import Any, Callable, Optional
 
@@ -44,8 +45,9 @@ class FieldCall:
 
 
 def _doubles_at(address: int, shape: tuple[int, ...]) -> NDArray[np.float64]:
-    buffer = (_c.c_double * int(np.prod(shape))).from_address(address)
-    return np.frombuffer(buffer, np.float64).reshape(shape)
+    buffer: Any = (ctypes.c_double * int(np.prod(shape))).from_address(address)
+    found: NDArray[np.float64] = np.frombuffer(buffer, np.float64).reshape(shape)
+    return found
 
 
 class Shape(Body):
