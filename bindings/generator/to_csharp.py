@@ -168,7 +168,9 @@ class CSharp:
     def delegate(self, name, call):
         yield ""
         yield "    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]"
-        yield f"    internal delegate {self.result(call['result'])} {pascal(name)}({self.parameters(call)});"
+        parameters = self.parameters(call)
+        unsafe = "unsafe " if "*" in parameters else ""
+        yield f"    internal {unsafe}delegate {self.result(call['result'])} {pascal(name)}({parameters});"
 
     def functions(self):
         yield ""

@@ -1,6 +1,6 @@
 /// <reference lib="esnext.disposable" />
 // voxtet: vox in WebAssembly. Fields of options and results are those of the structs of vox.h, whose comments they have.
-import type { CellsKept, CellsQueried, CellsStored, Format, KnownGrid, LogLevel, PrimitiveType, Result } from "./enums.js";
+import type { CellsKept, CellsQueried, CellsStored, Format, KnownGrid, LogLevel, PrimitiveType, Result, ShapeKind } from "./enums.js";
 import type {
   BodyInfo, BoxHit, BoxHitColumns, CellSizeDesc, CellSizeResult as CellSizeResultStruct, CellSizeRule as CellSizeRuleStruct,
   ClosestHit, ClosestHitColumns, Constraint, ConstraintColumns, ConstraintDesc, Contact, ContactColumns,
@@ -84,6 +84,9 @@ export interface Vox {
   foreignGridTune(run: (cellSize: number) => number, options?: TuneOptions): CellSizeResult;
 }
 
+/** Segments between `count` positions, one after the other, as triangles of a sheet: a needle, a thread. */
+export declare function polyline(count: number): Uint32Array;
+
 // ---- arrays ----
 
 /** x y z of each vertex, singles or doubles. */
@@ -162,6 +165,30 @@ export interface MeshOptions {
   /** The rest pose, for FilterOptions.selfRestDistance; in numbers of the same size. */
   restPositions?: Positions;
 }
+
+interface ShapeBasics {
+  userData?: Bits;
+  filter?: FilterOptions;
+}
+
+/**
+ * A rigid shape, in a frame of its own: `setTransform` of what `addShape` returns places it. Arrays are copied, lengths may be 0.
+ * May change in any release.
+ */
+export type ShapeOptions = ShapeBasics &
+  (
+    | { /** All z <= 0: a floor. */ kind: typeof ShapeKind.HALF_SPACE }
+    | { /** Around the origin. */ kind: typeof ShapeKind.SPHERE; radius: number }
+    | { /** Along the z axis; `halfLength` is half the distance between the centres of a capsule's round ends. */
+        kind: typeof ShapeKind.CAPSULE | typeof ShapeKind.CYLINDER; radius: number; halfLength: number }
+    | { /** Around the origin, by half its sides. */ kind: typeof ShapeKind.BOX; halfSize: Vector }
+    | { /** Terrain, solid below: heights row after row, at x = column * spacing[0], y = row * spacing[1]. */
+        kind: typeof ShapeKind.HEIGHTFIELD; heights: Vector; columns: number; spacing: Vector }
+    | { /** The inside of a closed surface, whose triangles are counter-clockwise as seen from outside. */
+        kind: typeof ShapeKind.SOLID; positions: Positions; triangles: Indices }
+    | { /** What is within `radius` of triangles; of segments: see `polyline`. */
+        kind: typeof ShapeKind.SHEET; positions: Positions; triangles: Indices; radius?: number }
+  );
 
 export interface SuggestMesh {
   positions: Positions;
@@ -296,9 +323,15 @@ export interface Grid extends Owned {
 
   /** Adds a mesh. Its arrays are copied. */
   add(mesh: MeshOptions): Mesh;
+  /**
+   * Adds a rigid shape, which takes part from the next step on. The vertices of meshes collide with it. It has no vertices: its
+   * constraints have those of `bodyA` alone. What it returns is good wherever a shape has what a mesh has: transform,
+   * filter, user data, whether it is enabled; its `info.shape` is a ShapeKind. May change in any release.
+   */
+  addShape(shape: ShapeOptions): Mesh;
   /** The mesh of an id, as results have it. Whether there is one shows when it is used. */
   mesh(id: number): Mesh;
-  /** All meshes, in the order of their ids. */
+  /** All meshes and shapes, in the order of their ids. */
   readonly meshes: Mesh[];
   /** Whether two meshes collide, if their filters let them. */
   setPairEnabled(bodyA: MeshOrId, bodyB: MeshOrId, enabled: boolean): void;
@@ -335,7 +368,7 @@ export interface Grid extends Owned {
   suggestCellSize(options?: SuggestOptions): CellSizeResult;
 }
 
-/** A mesh of a grid. It is a name: the grid owns what it names, and a removed mesh is an error when it is used. */
+/** A mesh or a shape of a grid. It is a name: the grid owns what it names, and a removed mesh is an error when it is used. */
 export interface Mesh {
   readonly id: number;
   readonly grid: Grid;
@@ -361,8 +394,12 @@ export interface Mesh {
   readonly enabledTets: Uint8Array;
   /** Makes the next step process the mesh even if it did not move, for measurements. */
   markMoved(): void;
-  /** Moves the mesh as a whole by an affine map, three rows of four; null: not at all. */
+  /** Moves the mesh as a whole by an affine map, three rows of four; null: not at all. A shape is rotated, moved, and scaled
+   * along all axes alike. */
   setTransform(matrix: Vector | null): void;
+  /** Of a shape: where it was, as in `setTransform`. In the following steps it moves from there, and they also find
+   * constraints of ConstraintKind.IMPACT with it. Null ends this. May change in any release. */
+  setPreviousTransform(matrix: Vector | null): void;
   /** What the mesh collides with. Of an assignment, what is missing becomes the default. */
   get filter(): Filter;
   set filter(filter: FilterOptions);

@@ -5,10 +5,11 @@ import { integer } from "./lib/check.js";
 import { VoxError } from "./lib/errors.js";
 import { Grid, snapshotBytes, stepGrids } from "./lib/grid.js";
 import { Memory } from "./lib/memory.js";
+import { polyline } from "./lib/shapes.js";
 import { coreCount, threadsSupported } from "./lib/threads.js";
 
 export * from "./enums.js";
-export { threadsSupported, VoxError };
+export { polyline, threadsSupported, VoxError };
 
 // A module of one function that returns a vector: valid where WebAssembly has SIMD.
 const SIMD_PROBE = [0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11];

@@ -362,6 +362,97 @@ inline vox_mesh_desc describe(const borrowed_points& positions, const borrowed_t
     return detail::desc_of(positions, tets);
 }
 
+// ---- rigid shapes -------------------------------------------------------------------------------
+
+// vox_shape_desc of each kind, for grid.insert(); its user_data and filter have their defaults. Arrays are borrowed until
+// the grid has copied them. `half_length` and the sizes of a box are half the whole; a capsule's is between the centres of its ends.
+
+namespace detail {
+
+inline vox_shape_desc shape_of(vox_shape_kind kind, double radius = 0, double half_length = 0) {
+    vox_shape_desc desc = vox_default_shape_desc();
+    desc.kind = kind;
+    desc.radius = radius;
+    desc.half_length = half_length;
+    return desc;
+}
+inline vox_shape_desc sized_shape_of(vox_shape_kind kind, double x, double y, double z) {
+    vox_shape_desc desc = shape_of(kind);
+    desc.half_size[0] = x;
+    desc.half_size[1] = y;
+    desc.half_size[2] = z;
+    return desc;
+}
+inline vox_shape_desc surface_of(vox_shape_kind kind, double radius, const points& positions,
+                                 const borrowed_indices& triangles) {
+    if ((triangles.each != 1 && triangles.each != 3) || triangles.size % 3 != 0)
+        refuse("triangles: %llu indices, %llu in each element, are not three for each triangle", triangles.size,
+               triangles.each);
+    vox_shape_desc desc = shape_of(kind, radius);
+    desc.positions = positions;
+    desc.triangles = triangles.data;
+    desc.triangle_count = triangles.size / 3;
+    return desc;
+}
+
+} // namespace detail
+
+inline vox_shape_desc half_space() { return detail::shape_of(VOX_SHAPE_HALF_SPACE); }
+inline vox_shape_desc sphere(double radius) { return detail::shape_of(VOX_SHAPE_SPHERE, radius); }
+inline vox_shape_desc capsule(double radius, double half_length) {
+    return detail::shape_of(VOX_SHAPE_CAPSULE, radius, half_length);
+}
+inline vox_shape_desc cylinder(double radius, double half_length) {
+    return detail::shape_of(VOX_SHAPE_CYLINDER, radius, half_length);
+}
+inline vox_shape_desc box(double half_x, double half_y, double half_z) {
+    return detail::sized_shape_of(VOX_SHAPE_BOX, half_x, half_y, half_z);
+}
+// Row after row, of `columns` heights each.
+inline vox_shape_desc heightfield(span<const double> heights, std::uint32_t columns, double spacing_x,
+                                  double spacing_y) {
+    const std::uint64_t rows = columns > 0 ? heights.size() / columns : 0;
+    if (rows * columns != heights.size() || rows > UINT32_MAX)
+        detail::refuse("heightfield: %llu heights in rows of %llu", heights.size(), columns);
+    vox_shape_desc desc = detail::shape_of(VOX_SHAPE_HEIGHTFIELD);
+    desc.heights = heights.data();
+    desc.columns = columns;
+    desc.rows = static_cast<std::uint32_t>(rows);
+    desc.spacing[0] = spacing_x;
+    desc.spacing[1] = spacing_y;
+    return desc;
+}
+void heightfield(const std::vector<double>&& temporary, std::uint32_t, double, double) = delete;
+// Triangles are a range of indices, or of elements of three.
+inline vox_shape_desc solid(const borrowed_points& positions, const borrowed_indices& triangles) {
+    return detail::surface_of(VOX_SHAPE_SOLID, 0, positions, triangles);
+}
+inline vox_shape_desc sheet(const borrowed_points& positions, const borrowed_indices& triangles, double radius = 0) {
+    return detail::surface_of(VOX_SHAPE_SHEET, radius, positions, triangles);
+}
+// Segments between `count` points, one after the other, as triangles of a sheet: a needle, a thread.
+inline std::vector<std::array<std::uint32_t, 3>> polyline(std::uint32_t count) {
+    std::vector<std::array<std::uint32_t, 3>> segments;
+    for (std::uint32_t i = 1; i < count; ++i) segments.push_back({i - 1, i, i});
+    return segments;
+}
+// distance(points, distances, gradients) as vox_shape_desc.field, on several threads at once. It must not throw, and
+// must live until the shape is removed.
+template <class F>
+requires std::is_nothrow_invocable_v<F&, span<const std::array<double, 3>>, span<double>, span<std::array<double, 3>>>
+    vox_shape_desc field(F& distance, double half_x, double half_y, double half_z) {
+    vox_shape_desc desc = detail::sized_shape_of(VOX_SHAPE_FIELD, half_x, half_y, half_z);
+    desc.field = [](const double* at, std::uint64_t count, double* distances, double* gradients, void* user) {
+        using place = std::array<double, 3>;
+        const std::size_t size = static_cast<std::size_t>(count);
+        (*static_cast<F*>(user))(span<const place>(reinterpret_cast<const place*>(at), size),
+                                 span<double>(distances, size),
+                                 span<place>(reinterpret_cast<place*>(gradients), size));
+    };
+    desc.field_user = const_cast<std::remove_cv_t<F>*>(std::addressof(distance));
+    return desc;
+}
+
 // ---- callables ----------------------------------------------------------------------------------
 
 // vox_log: receives a line. The grid keeps it; what it throws is dropped.
@@ -444,6 +535,13 @@ inline vox_allocator allocator_of(std::pmr::memory_resource& memory) noexcept {
 
 namespace detail {
 
+template <class M>
+std::array<double, 12> rows_of(const M& matrix) {
+    std::array<double, 12> rows;
+    for (int i = 0; i < 12; ++i) rows[static_cast<std::size_t>(i)] = static_cast<double>(matrix(i / 4, i % 4));
+    return rows;
+}
+
 // What ends with a grid.
 struct grid_deleter {
     bool owned = true;
@@ -507,6 +605,8 @@ public:
     }
     // vox_mesh_insert
     vox_body insert(const vox_mesh_desc& desc) { return detail::filled<vox_body>(vox_mesh_insert, get(), &desc); }
+    // vox_shape_insert
+    vox_body insert(const vox_shape_desc& desc) { return detail::filled<vox_body>(vox_shape_insert, get(), &desc); }
     // vox_body_remove
     void remove(vox_body mesh) { detail::check(vox_body_remove(get(), mesh)); }
     // vox_body_is_valid
@@ -573,19 +673,32 @@ public:
         detail::check(vox_grid_set_pair_enabled(get(), a, b, enabled));
     }
     // vox_body_set_transform: twelve numbers row by row, or a matrix of at least 3 x 4 that is read as m(row, column).
-    void set_transform(vox_body mesh, const double (&rows)[12]) {
-        detail::check(vox_body_set_transform(get(), mesh, rows));
+    void set_transform(vox_body body, const double (&rows)[12]) {
+        detail::check(vox_body_set_transform(get(), body, rows));
     }
-    void set_transform(vox_body mesh, const std::array<double, 12>& rows) {
-        detail::check(vox_body_set_transform(get(), mesh, rows.data()));
+    void set_transform(vox_body body, const std::array<double, 12>& rows) {
+        detail::check(vox_body_set_transform(get(), body, rows.data()));
     }
     template <class M, class = decltype(static_cast<double>(std::declval<const M&>()(0, 0)))>
-    void set_transform(vox_body mesh, const M& matrix) {
-        double rows[12];
-        for (int i = 0; i < 12; ++i) rows[i] = static_cast<double>(matrix(i / 4, i % 4));
-        return set_transform(mesh, rows);
+    void set_transform(vox_body body, const M& matrix) {
+        return set_transform(body, detail::rows_of(matrix));
     }
-    void clear_transform(vox_body mesh) { detail::check(vox_body_set_transform(get(), mesh, nullptr)); }
+    void clear_transform(vox_body body) { detail::check(vox_body_set_transform(get(), body, nullptr)); }
+    // vox_shape_set_previous_transform, likewise.
+    void set_previous_transform(vox_body shape, const double (&rows)[12]) {
+        detail::check(vox_shape_set_previous_transform(get(), shape, rows));
+    }
+    void set_previous_transform(vox_body shape, const std::array<double, 12>& rows) {
+        detail::check(vox_shape_set_previous_transform(get(), shape, rows.data()));
+    }
+    template <class M, class = decltype(static_cast<double>(std::declval<const M&>()(0, 0)))>
+    void set_previous_transform(vox_body shape, const M& matrix) {
+        return set_previous_transform(shape, detail::rows_of(matrix));
+    }
+    // The shape stands still from now on.
+    void end_previous_transform(vox_body shape) {
+        detail::check(vox_shape_set_previous_transform(get(), shape, nullptr));
+    }
 
     // -- cutting and growing
 

@@ -239,7 +239,7 @@ namespace Voxtet
             return Insert(positions, tets, userData, filter, restPositions);
         }
 
-        /// <summary>Removes a mesh. The contacts of the last step stay as they are until the next one.</summary>
+        /// <summary>Removes a mesh or a shape. The contacts of the last step stay as they are until the next one.</summary>
         public void Remove(Mesh mesh)
         {
             using (var use = handle.Change())
@@ -256,7 +256,7 @@ namespace Voxtet
             using (var use = handle.Read()) return Native.vox_body_is_valid(use.Pointer, mesh.Id) != 0;
         }
 
-        /// <summary>All meshes, in the order of their ids.</summary>
+        /// <summary>All meshes and shapes, in the order of their ids.</summary>
         public Mesh[] GetMeshes()
         {
             using (var use = handle.Read())
@@ -277,7 +277,7 @@ namespace Voxtet
             return info;
         }
 
-        /// <summary>A mesh as it is now.</summary>
+        /// <summary>A mesh or a shape as it is now.</summary>
         public MeshFacts GetFacts(Mesh mesh)
         {
             BodyInfo info;
@@ -285,6 +285,7 @@ namespace Voxtet
             return new MeshFacts
             {
                 UserData = info.user_data,
+                Shape = (ShapeKind)info.shape,
                 VertexCount = info.positions.count,
                 TetCount = info.tet_count,
                 EnabledTetCount = info.enabled_tet_count,
@@ -360,13 +361,19 @@ namespace Voxtet
         /// <summary>The same of doubles.</summary>
         public void SetPreviousPositions(Mesh mesh, ReadOnlySpan<double> positions) { BindPrevious(mesh, positions); }
 
-        /// <summary>Moves a mesh as a whole by an affine map, three rows of four numbers; none: not at all.</summary>
+        /// <summary>Moves a mesh as a whole by an affine map, three rows of four numbers; none: not at all. A shape is
+        /// rotated, moved, and scaled along all axes alike.</summary>
         public void SetTransform(Mesh mesh, ReadOnlySpan<double> matrix)
+        {
+            CheckMatrix(matrix);
+            fixed (double* m = &MemoryMarshal.GetReference(matrix))
+            using (var use = handle.Change()) VoxException.Check(Native.vox_body_set_transform(use.Pointer, mesh.Id, m));
+        }
+
+        static void CheckMatrix(ReadOnlySpan<double> matrix)
         {
             if (matrix.Length != 12 && matrix.Length != 0)
                 throw new ArgumentException(matrix.Length + " numbers, expected 12 or none", "matrix");
-            fixed (double* m = &MemoryMarshal.GetReference(matrix))
-            using (var use = handle.Change()) VoxException.Check(Native.vox_body_set_transform(use.Pointer, mesh.Id, m));
         }
 
         /// <summary>Sets what a mesh collides with.</summary>

@@ -1809,7 +1809,7 @@ namespace Voxtet
     internal delegate double ForeignRun(double cell_size, IntPtr user);
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
-    internal delegate void ShapeDescField(double* points, ulong count, double* distances, double* gradients, IntPtr user);
+    internal unsafe delegate void ShapeDescField(double* points, ulong count, double* distances, double* gradients, IntPtr user);
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     internal delegate IntPtr AllocatorAllocate(UIntPtr size, UIntPtr alignment, IntPtr user);

@@ -2,7 +2,7 @@ using System;
 
 namespace Voxtet
 {
-    /// <summary>Names a mesh in its grid. The number of a removed mesh is never used again, so a stale one is refused.
+    /// <summary>Names a mesh or a shape in its grid. The number of a removed one is never used again, so a stale one is refused.
     /// </summary>
     public readonly struct Mesh : IEquatable<Mesh>
     {
@@ -56,6 +56,8 @@ namespace Voxtet
     public struct MeshFacts
     {
         public ulong UserData;
+        /// <summary>None for a mesh.</summary>
+        public ShapeKind Shape;
         /// <summary>With the removed ones.</summary>
         public ulong VertexCount;
         /// <summary>With those that are disabled or removed.</summary>

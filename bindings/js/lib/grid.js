@@ -5,6 +5,7 @@ import { Locator } from "./locator.js";
 import { meshArrays, meshDesc, same } from "./mesh_arrays.js";
 import { guarded, memoryOf, Owned, pointerOf, pointerOfKind } from "./owned.js";
 import { records } from "./records.js";
+import { shapeOf } from "./shapes.js";
 
 const GRID = ["cellSize", "margin", "byteBudget", "flags", "log", "reference"];
 const REFERENCE = ["flags", "hashTableSize", "worldMin", "worldMax"];
@@ -13,6 +14,8 @@ const MESH = ["positions", "tets", "userData", "filter", "restPositions"];
 const TOPOLOGY = ["positions", "tets", "restPositions"];
 const VERTICES = ["positions", "copiesOf", "restPositions"];
 const CONSTRAINTS = ["method", "bodyA", "bodyB", "mask", "closestBudget"];
+
+const filterOf = (filter) => fields(filter, "filter", "vox_filter", FILTER);
 
 let logged;
 let lend;
@@ -141,7 +144,7 @@ export class Grid extends Owned {
   add(mesh) {
     const memory = memoryOf(this);
     const given = options(mesh, "mesh", MESH);
-    const filter = given.filter === undefined ? undefined : fields(given.filter, "filter", "vox_filter", FILTER);
+    const filter = given.filter === undefined ? undefined : filterOf(given.filter);
     const userData = given.userData === undefined ? 0n : bits(given.userData, "userData");
     const arrays = meshArrays(given, memory);
     const id = memory.frame((frame) =>
@@ -154,6 +157,12 @@ export class Grid extends Owned {
       ),
     );
     return new Mesh(this, id);
+  }
+
+  addShape(shape) {
+    const memory = memoryOf(this);
+    const described = shapeOf(shape, filterOf, memory);
+    return new Mesh(this, memory.frame((frame) => memory.number("u32", (out) => this.#call("vox_shape_insert", described(frame), out))));
   }
 
   mesh(id) {
@@ -251,7 +260,7 @@ export class Grid extends Owned {
   }
 }
 
-/** A mesh of a grid: its id, and the functions that take one. */
+/** A mesh or a shape of a grid: its id, and the functions that take one. */
 export class Mesh {
   #grid;
   #id;
@@ -349,9 +358,17 @@ export class Mesh {
     this.#call("vox_body_mark_moved");
   }
 
-  setTransform(matrix) {
+  #place(name, matrix) {
     const rows = matrix === null ? null : floats(matrix, "matrix", 12);
-    memoryOf(this.#grid).frame((frame) => this.#call("vox_body_set_transform", rows ? frame.numbers(rows) : 0));
+    memoryOf(this.#grid).frame((frame) => this.#call(name, rows ? frame.numbers(rows) : 0));
+  }
+
+  setTransform(matrix) {
+    this.#place("vox_body_set_transform", matrix);
+  }
+
+  setPreviousTransform(matrix) {
+    this.#place("vox_shape_set_previous_transform", matrix);
   }
 
   get filter() {
@@ -359,7 +376,7 @@ export class Mesh {
   }
 
   set filter(value) {
-    const given = fields(value, "filter", "vox_filter", FILTER);
+    const given = filterOf(value);
     memoryOf(this.#grid).frame((frame) => this.#call("vox_body_set_filter", frame.struct("vox_filter", given)));
   }
 

@@ -44,7 +44,7 @@ test("installed from what npm packs, the README's program prints what it says", 
     const run = (command, ...given) => execFileSync(command, given, { cwd: folder, encoding: "utf8", stdio: ["ignore", "pipe", "inherit"] });
     const [packed] = JSON.parse(run("npm", "pack", "--json", "--silent", here));
     const expected = ["LICENSE", "README.md", "enums.d.ts", "enums.js", "layout.js", "package.json", "structs.d.ts", "voxtet.d.ts",
-      "voxtet.js", ...["cell_size", "check", "errors", "foreign", "grid", "locator", "memory", "mesh_arrays", "owned", "records", "thread", "thread_imports", "threads"].map((n) => `lib/${n}.js`)];
+      "voxtet.js", ...["cell_size", "check", "errors", "foreign", "grid", "locator", "memory", "mesh_arrays", "owned", "records", "shapes", "thread", "thread_imports", "threads"].map((n) => `lib/${n}.js`)];
     assert.deepEqual(packed.files.map((file) => file.path).sort(), [...expected, ...flavours].sort());
     const installed = path.join(folder, "node_modules", "voxtet");
     mkdirSync(installed, { recursive: true });

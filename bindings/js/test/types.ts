@@ -1,5 +1,5 @@
 // Compiled by tsc --strict, and never run: the types are those that a program can use.
-import { CellsQueried, ConstraintKind, DepthMethod, FilterFlags, GridFlags, KnownGrid, load, PrimitiveType, QueryFlags, Result, VoxError, type CellSizeResult, type Contacts, type Grid, type Vox } from "voxtet";
+import { CellsQueried, ConstraintKind, DepthMethod, FilterFlags, GridFlags, KnownGrid, load, PrimitiveType, QueryFlags, Result, ShapeKind, VoxError, polyline, type CellSizeResult, type Contacts, type Grid, type Vox } from "voxtet";
 
 export async function program(): Promise<number> {
   const vox: Vox = await load({ simd: false });
@@ -8,6 +8,10 @@ export async function program(): Promise<number> {
   mesh.positions.set([0, 1, 2]);
   mesh.positions = new Float64Array(12);
   mesh.bindPreviousPositions(mesh.positions);
+  const ball = grid.addShape({ kind: ShapeKind.SPHERE, radius: 1, userData: 7 });
+  ball.setPreviousTransform(null);
+  grid.addShape({ kind: ShapeKind.SHEET, positions: new Float64Array(6), triangles: polyline(2), radius: 0.1, filter: { category: 2 } });
+  grid.addShape({ kind: ShapeKind.HEIGHTFIELD, heights: [0, 0, 0, 0], columns: 2, spacing: [1, 1] });
   grid.step();
   const contacts: Contacts = grid.contacts;
   const vertices: Uint32Array = contacts.vertex;
@@ -43,6 +47,8 @@ export async function mistakes(): Promise<void> {
   const grid = new Grid();
   // @ts-expect-error positions are numbers in a typed array
   grid.add({ positions: [0, 0, 0] });
+  // @ts-expect-error a sphere has a radius
+  grid.addShape({ kind: ShapeKind.SPHERE });
   // @ts-expect-error a misspelt option
   new Grid({ cellsize: 1 });
   // @ts-expect-error results are not to be written

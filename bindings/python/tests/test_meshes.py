@@ -134,7 +134,7 @@ class Example(unittest.TestCase):
             runpy.run_path(path)
         lines = printed.getvalue().splitlines()
         self.assertEqual(len(lines), 4)
-        self.assertRegex(lines[-1], r"^3 s: height 0\.50, speed 0\.0[01], deepest 0\.000[1-9]$")
+        self.assertRegex(lines[-1], r"^3 s: height 0\.25, speed 0\.0[01], deepest 0\.000[1-9]$")
 
 
 class Rows(GridCase):

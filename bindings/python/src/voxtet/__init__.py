@@ -5,17 +5,19 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ._c import (VOX_NONE as NONE, CellSizeWarnings, CellsKept, CellsQueried, CellsStored, ConstraintKind, CostModel, DepthMethod,
-                 DepthState, GridFlags, KnownGrid, LocationState, PairState, Result, Side)
+                 DepthState, GridFlags, KnownGrid, LocationState, PairState, Result, ShapeKind, Side)
 from ._library import vox as _vox
+from .body import Body, Filter
 from .errors import (BudgetError, FileError, FormatError, InternalError, InvalidArgumentError, InvalidHandleError,
                      InvalidMeshError, InvalidStateError, LimitError, MeshWarning, MissingFileError, NonFiniteError,
                      OutOfMemoryError, UnsupportedError, VoxError)
 from .foreign import ForeignCounts, ForeignGrid, Primitives, tune
 from .grid import ALL_CORES, Failure, Grid, step_all
 from .locate import BoxHits, ClosestHits, Located, Locator, PointHits, RayHits, TrackPieces, Tracks, locate, tracks
-from .mesh import Filter, Mesh, MeshInfo
+from .mesh import Mesh, MeshInfo
 from .reference import Reference
 from .results import Borrowed, Constraints, Contacts, Jacobian, Pairs
+from .shapes import Box, Capsule, Cylinder, Field, HalfSpace, Heightfield, Polyline, Shape, Sheet, Solid, Sphere
 from .suggest import (CellSizeResult, Curve, ForeignWeights, Geometry, Rules, Terms, Timings, calibrate, measure_geometry, minimise,
                       suggest_cell_size)
 from .transfer import Embedding, Transfer, embed, sample

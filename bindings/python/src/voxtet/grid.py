@@ -15,12 +15,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _c, results
 from ._interop import body_of, is_mesh
-from ._arguments import U32, Rows, integer, real, switch
+from ._arguments import U32, Rows, integer, matrix, real, switch
 from ._library import Handle, described, sized, vox
+from .body import Body, Filter
 from .errors import InvalidArgumentError, InvalidHandleError, InvalidStateError, VoxError
-from .mesh import Filter, Mesh, Topology
+from .mesh import Mesh, Topology
 from .reference import Reference, pointer_to
 from .results import Borrowed, Exports, Results, copy_of, hits_of
+from .shapes import FieldCall, Geometry, Shape
 from .suggest import CellSizeResult, suggest_for_grid
 
 if TYPE_CHECKING:
@@ -103,7 +105,7 @@ def _log_function(grid: Grid, log: Log) -> Any:
 
 
 class Grid(Results):
-    """A set of meshes that collide. `step` finds all contacts of their positions as they are then.
+    """A set of meshes, and of rigid shapes, that collide. `step` finds all contacts of their positions as they are then.
 
     cell_size, worker_count (`workers`: 0 or 1 thread, or ALL_CORES), margin and byte budget are those of vox_grid_desc;
     constraints, edges and skip_bad_bodies its flags; `reference` chooses the paper's engine in place of the fast one. `log` is
@@ -163,6 +165,7 @@ class Grid(Results):
         self._borrowed = Exports()
         self._borrowed_constraints = Exports()
         self._mapped: dict[int, Exports] = {}
+        self._fields: dict[int, FieldCall] = {}  # that steps call
 
     # ---- life ----
 
@@ -178,7 +181,7 @@ class Grid(Results):
 
     def _forget(self) -> None:
         self._pointer = self._handle = None
-        self._kept, self._lent, self._tags, self._mapped = {}, [], {}, {}
+        self._kept, self._lent, self._tags, self._mapped, self._fields = {}, [], {}, {}, {}
         self._lock = _Closed()
 
     @property
@@ -200,7 +203,8 @@ class Grid(Results):
     def __repr__(self) -> str:
         if self._pointer is None:
             return "<voxtet.Grid, closed>"
-        return f"<voxtet.Grid of {len(self)} meshes>"
+        shapes = len(self._ids()) - len(self)
+        return f"<voxtet.Grid of {len(self)} meshes{f' and {shapes} shapes' if shapes else ''}>"
 
     def _repr_html_(self) -> str:
         """For notebooks: the meshes by their tags."""
@@ -221,7 +225,7 @@ class Grid(Results):
             for exports in self._mapped.values():
                 exports.refuse("clear")
             vox.vox_grid_clear(self._pointer)
-            self._kept, self._lent, self._tags, self._mapped = {}, [], {}, {}
+            self._kept, self._lent, self._tags, self._mapped, self._fields = {}, [], {}, {}, {}
 
     def reserve(self, mesh_count: int, contact_count: int) -> None:
         """Allocates the memory for so many meshes and contacts in advance."""
@@ -344,10 +348,7 @@ class Grid(Results):
             raise InvalidArgumentError("fill is for meshes with triangles, not for arrays")
         new = Topology(positions, tets, vertex_count, copy, rest_positions, borrow_tets)
         new.desc.user_data = integer(user_data, "user_data")
-        if filter is not None:
-            if not isinstance(filter, Filter):
-                raise TypeError(f"filter is of type {type(filter).__name__}; it must be a voxtet.Filter")
-            new.desc.filter = filter._struct()
+        new.desc.filter = _filter_struct(filter)
         new.desc.filter.flags |= switch(self_collision, "self_collision") * _c.FilterFlags.SELF_COLLISION
         mesh = ctypes.c_uint32()
         with self._lock:
@@ -359,62 +360,106 @@ class Grid(Results):
                 self._tags[mesh.value] = tag
         return Mesh(self, mesh.value)
 
-    def _id(self, mesh: Union[Mesh, int], name: str = "mesh") -> int:
-        if isinstance(mesh, Mesh) and mesh.grid is not self:
-            raise InvalidHandleError(f"{name} is mesh {mesh.id} of another grid")
-        return integer(mesh, name, 0, U32)
+    def add_shape(self, shape: Geometry, *, transform: Optional[ArrayLike] = None,
+                  previous_transform: Optional[ArrayLike] = None, tag: Any = None, user_data: int = 0,
+                  filter: Optional[Filter] = None) -> Shape:
+        """Adds a rigid shape, which takes part from the next step on: a HalfSpace, Sphere, Capsule, Cylinder, Box, Heightfield,
+        Solid, Sheet, Polyline or Field. It is copied. The vertices of meshes collide with it; it is body_b of their constraints,
+        which have vertices of body_a alone. Experimental.
 
-    def remove(self, mesh: Union[Mesh, int]) -> None:
-        """Removes a mesh. The contacts of the last step stay until the next one."""
-        id = self._id(mesh)
+        transform: where it is, as `shape.transform`. previous_transform: see Shape.set_previous_transform.
+
+        >>> import voxtet
+        >>> with voxtet.Grid(constraints=True) as grid:
+        ...     floor = grid.add_shape(voxtet.HalfSpace())
+        ...     points = grid.add(np.array([[0, 0, -.5], [0, 0, 1]]))
+        ...     grid.step()
+        ...     print(grid.constraints.vertices[:, 0], grid.constraints.gap, grid.constraints.normal)
+        [0] [-0.5] [[0. 0. 1.]]
+        """
+        if not isinstance(shape, Geometry):
+            raise TypeError(f"shape is of type {type(shape).__name__}; it must be a voxtet.Sphere or another shape")
+        desc, kept = shape._described()
+        desc.user_data, desc.filter = integer(user_data, "user_data"), _filter_struct(filter)
+        places = [None if m is None else matrix(m, name) for m, name in
+                  ((transform, "transform"), (previous_transform, "previous_transform"))]
+        id = ctypes.c_uint32()
+        with self._lock:
+            with self._lending(kept):
+                vox.vox_shape_insert(self._pointer, desc, id)
+                if isinstance(kept, FieldCall):
+                    self._fields[id.value] = kept
+            try:
+                for place, numbers in zip((vox.vox_body_set_transform, vox.vox_shape_set_previous_transform), places):
+                    if numbers is not None:
+                        place(self._pointer, id, numbers)
+            except VoxError:
+                vox.vox_body_remove(self._pointer, id)
+                self._fields.pop(id.value, None)
+                raise
+            if tag is not None:
+                self._tags[id.value] = tag
+        return Shape(self, id.value)
+
+    def _id(self, body: Union[Body, int], name: str = "body") -> int:
+        if isinstance(body, Body) and body.grid is not self:
+            raise InvalidHandleError(f"{name} is body {body.id} of another grid")
+        return integer(body, name, 0, U32)
+
+    def remove(self, body: Union[Body, int]) -> None:
+        """Removes a mesh or a shape. The contacts of the last step stay until the next one."""
+        id = self._id(body)
         with self._lock:
             self._refuse_positions(id, "removal of the mesh")
             vox.vox_body_remove(self._pointer, id)
-            self._kept.pop(id, None)
-            self._tags.pop(id, None)
-            self._mapped.pop(id, None)
+            for of_bodies in (self._kept, self._tags, self._mapped, self._fields):
+                of_bodies.pop(id, None)
 
     def _ids(self) -> NDArray[np.uint32]:
         with self._lock:
             return hits_of(lambda ids, room, count: vox.vox_grid_get_bodies(self._pointer, ids, room, count),  # type: ignore
                            np.ndarray, np.dtype(np.uint32), 16)
 
+    def _body(self, id: int) -> Body:
+        with self._lock:
+            kind = Body(self, id)._raw_info().shape
+        return Shape(self, id) if kind else Mesh(self, id)
+
     @property
     def meshes(self) -> list[Mesh]:
         """All meshes, in the order of their ids, disabled ones included."""
-        return [Mesh(self, int(id)) for id in self._ids()]
+        return [body for id in self._ids() if isinstance(body := self._body(int(id)), Mesh)]
+
+    @property
+    def shapes(self) -> list[Shape]:
+        """All rigid shapes, likewise."""
+        return [body for id in self._ids() if isinstance(body := self._body(int(id)), Shape)]
 
     def __iter__(self) -> Iterator[Mesh]:
         return iter(self.meshes)
 
     def __len__(self) -> int:
-        count = ctypes.c_uint64()
-        with self._lock:
-            vox.vox_grid_get_bodies(self._pointer, None, 0, count)
-        return count.value
+        return len(self.meshes)
 
     def __bool__(self) -> bool:
         return True
 
-    def __contains__(self, mesh: object) -> bool:
-        if isinstance(mesh, Mesh) and mesh.grid is not self:
+    def __contains__(self, body: object) -> bool:
+        if isinstance(body, Body) and body.grid is not self:
             return False
         try:
-            id = integer(mesh, "mesh")
+            id = integer(body, "body")
         except (TypeError, InvalidArgumentError):
             return False
         with self._lock:
             return id <= U32 and bool(vox.vox_body_is_valid(self._pointer, id))
 
-    def __getitem__(self, mesh: Union[Mesh, int]) -> Mesh:
-        """The mesh with an id, e.g. of a contact."""
-        id = self._id(mesh)
-        with self._lock:
-            vox.vox_body_get_user_data(self._pointer, id, ctypes.c_uint64())
-        return Mesh(self, id)
+    def __getitem__(self, body: Union[Body, int]) -> Any:
+        """The Mesh or Shape with an id, e.g. of a constraint."""
+        return self._body(self._id(body))
 
-    def set_pair_enabled(self, body_a: Union[Mesh, int], body_b: Union[Mesh, int], enabled: bool) -> None:
-        """With False, the two meshes do not collide in the following steps, whatever their filters say."""
+    def set_pair_enabled(self, body_a: Union[Body, int], body_b: Union[Body, int], enabled: bool) -> None:
+        """With False, the two bodies do not collide in the following steps, whatever their filters say."""
         a, b, number = self._id(body_a, "body_a"), self._id(body_b, "body_b"), switch(enabled, "enabled")
         with self._lock:
             vox.vox_grid_set_pair_enabled(self._pointer, a, b, number)
@@ -429,7 +474,12 @@ class Grid(Results):
             try:
                 _step(self._pointer)
             except VoxError as error:
-                raise self._tagged(error) from None
+                raise self._raised() or self._tagged(error) from None
+
+    def _raised(self) -> Optional[BaseException]:
+        """What a voxtet.Field has raised in a step that failed."""
+        raised = [field.raised() for field in self._fields.values()]
+        return next((error for error in raised if error is not None), None)
 
     def _tagged(self, error: VoxError) -> VoxError:
         """With the tag of the mesh that made a step fail, for a caller that has the lock."""
@@ -551,6 +601,12 @@ class Grid(Results):
         return _restored, (type(self), self.snapshot(), dict(self._settings), dict(self._tags))
 
 
+def _filter_struct(filter: Optional[Filter]) -> Any:
+    if filter is not None and not isinstance(filter, Filter):
+        raise TypeError(f"filter is of type {type(filter).__name__}; it must be a voxtet.Filter")
+    return _c.vox_filter() if filter is None else filter._struct()
+
+
 def _filled(mesh: Any, cell: Optional[float]) -> tuple[Any, Any]:
     """Positions and tets of a mesh; of a surface, also those that fill it, if there is a cell size."""
     positions, tets = body_of(mesh)
@@ -586,7 +642,10 @@ def step_all(grids: Iterable[Grid], workers: int = ALL_CORES) -> None:
         for grid in all_:
             grid._refuse("step_all")
         pointers = (ctypes.c_void_p * len(all_))(*[grid._pointer for grid in all_])
-        vox.vox_grids_step(pointers, len(all_), count, None, None)
+        try:
+            vox.vox_grids_step(pointers, len(all_), count, None, None)
+        except VoxError as error:
+            raise next((e for e in (grid._raised() for grid in all_) if e is not None), error) from None
 
 
 def _distinct(grids: Iterable[Grid]) -> list[Grid]:

@@ -34,8 +34,9 @@ from ._arguments import integer, real, rows, switch
 from ._arguments import points as point_rows
 from ._dist import dist
 from ._library import Handle, described, sized, values_of
+from .body import Filter
 from .errors import InvalidArgumentError, InvalidStateError, VoxError
-from .mesh import Filter, Topology
+from .mesh import Topology
 from .reference import Reference, pointer_to
 from .results import Records, copy_of
 

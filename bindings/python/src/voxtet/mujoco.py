@@ -5,9 +5,10 @@ from __future__ import annotations
 
 from typing import Any, Optional, Sequence, Union
 
+from .body import Filter
 from .errors import InvalidArgumentError
 from .grid import Grid
-from .mesh import Filter, Mesh
+from .mesh import Mesh
 
 
 class Flex:

@@ -17,8 +17,8 @@ from ._library import described, vox
 from .errors import InvalidArgumentError, InvalidHandleError, InvalidStateError
 
 if TYPE_CHECKING:
+    from .body import Body
     from .grid import Grid
-    from .mesh import Mesh
 
 
 SHOWN = 10  # rows in a notebook
@@ -96,9 +96,9 @@ class Pairs(Records):
 
 class Constraints(Records):
     """What a solver needs (vox_constraint). With x[i] for the position of vertices[i], of body_a for i < count_a and else of
-    body_b, gap = offset + normal @ sum(weights[i] * x[i]) is negative while the two overlap. Vertices beyond `count` are 0, and so
-    are their weights. `kind` is a ConstraintKind, `state` a DepthState; `pair` is an index of `Grid.pairs`, `previous` that of the
-    same constraint in the step before, or NONE. Sorted by pair (`Grid.pair_offsets`), kind, body_a and vertices."""
+    body_b, gap = offset + normal @ sum(weights[i] * x[i]) is negative while the two overlap; a shape has no vertices and is always
+    body_b. Vertices beyond `count` are 0, and so are their weights. `kind` is a ConstraintKind, `state` a DepthState; `pair` is an
+    index of `Grid.pairs`, `previous` that of the same constraint in the step before, or NONE. Sorted by pair (`Grid.pair_offsets`), kind, body_a and vertices."""
 
     body_a: NDArray[np.uint32]
     body_b: NDArray[np.uint32]
@@ -120,7 +120,7 @@ class Constraints(Records):
     previous: NDArray[np.uint32]
 
     def rows(self, offsets: Mapping[Any, int], columns: Optional[int] = None) -> Jacobian:
-        """The derivative of `gap` by all coordinates, a row for each constraint. offsets: for each body, by its id or as a Mesh,
+        """The derivative of `gap` by all coordinates, a row for each constraint. offsets: for each mesh, by its id or as a Mesh,
         the number of its first vertex among all; coordinate k of vertex v has column 3 * v + k. columns: how many there are;
         None: up to the last one in use.
 
@@ -129,12 +129,12 @@ class Constraints(Records):
         of_a = np.arange(self.vertices.shape[1]) < self.count_a[:, None]
         bodies = np.where(of_a, self.body_a[:, None], self.body_b[:, None])
         used = np.arange(self.vertices.shape[1]) < self.count[:, None]
-        known = np.unique(bodies)
+        known = np.unique(bodies[used])
         for body in known.tolist():
             if body not in first_of:
                 raise InvalidHandleError(f"offsets has no body {body}")
-        first = np.array([first_of[body] for body in known.tolist()], np.int64)[np.searchsorted(known, bodies)]
-        columns_ = (3 * (first + self.vertices)[:, :, None] + np.arange(3))[used].ravel()
+        first = np.array([first_of[body] for body in known.tolist()], np.int64)[np.searchsorted(known, bodies[used])]
+        columns_ = (3 * (first + self.vertices[used])[:, None] + np.arange(3)).ravel()
         values = (self.weights[:, :, None] * self.normal[:, None])[used].ravel()
         starts = np.concatenate([[0], np.cumsum(3 * self.count.astype(np.int64))])
         least = int(columns_.max()) + 1 if columns_.size else 0
@@ -297,8 +297,8 @@ class Results:
             CONTACTS.function(grid._pointer, contacts)
             return self._make(INDICES, pairs.contacts, contacts.count)  # type: ignore[no-any-return]
 
-    def find_constraints(self, method: Union[str, _c.DepthMethod] = "consistent", *, body_a: Union[Mesh, int, None] = None,
-                         body_b: Union[Mesh, int, None] = None, mask: int = 0, closest_budget: int = 0) -> Constraints:
+    def find_constraints(self, method: Union[str, _c.DepthMethod] = "consistent", *, body_a: Union[Body, int, None] = None,
+                         body_b: Union[Body, int, None] = None, mask: int = 0, closest_budget: int = 0) -> Constraints:
         """Finds the constraints of the last step, in place of those found before, and returns them. Call it before anything
         moves. method: "consistent" depth, smooth along the surface; to the "closest" point; "none". body_a, body_b: only pairs of
         this mesh, or this one pair; mask: only where the category of a mesh has a bit in common. closest_budget: most searches

@@ -25,6 +25,8 @@ pub type Failure = sys::vox_failure;
 pub struct MeshInfo {
     /// As given when the mesh was added.
     pub user_data: u64,
+    /// One of the constants in [`shape_kind`](crate::shape_kind): `NONE` for a mesh.
+    pub shape: sys::vox_shape_kind,
     /// With the removed ones.
     pub vertex_count: u64,
     /// With those that are disabled or removed.
@@ -302,7 +304,7 @@ impl Grid {
         Ok(Mesh(mesh))
     }
 
-    /// Removes a mesh. The contacts of the last step stay as they are until the next one.
+    /// Removes a mesh or a shape. The contacts of the last step stay as they are until the next one.
     pub fn remove(&mut self, mesh: Mesh) -> Result<()> {
         check(unsafe { sys::vox_body_remove(self.get_mut(), mesh.0) })?;
         self.previous.remove(&mesh);
@@ -314,7 +316,7 @@ impl Grid {
         unsafe { sys::vox_body_is_valid(self.get(), mesh.0) != 0 }
     }
 
-    /// All meshes, in the order of their ids.
+    /// All meshes and shapes, in the order of their ids.
     pub fn meshes(&self) -> Vec<Mesh> {
         copy_all(|meshes, capacity, count| unsafe { sys::vox_grid_get_bodies(self.get(), meshes, capacity, count) })
             .unwrap_or_default()
@@ -329,11 +331,12 @@ impl Grid {
         Ok(info)
     }
 
-    /// A mesh as it is now.
+    /// A mesh or a shape as it is now.
     pub fn info(&self, mesh: Mesh) -> Result<MeshInfo> {
         let info = self.info_of(mesh)?;
         Ok(MeshInfo {
             user_data: info.user_data,
+            shape: info.shape as sys::vox_shape_kind,
             vertex_count: info.positions.count,
             tet_count: info.tet_count,
             enabled_tet_count: info.enabled_tet_count,
@@ -401,7 +404,8 @@ impl Grid {
         Ok(())
     }
 
-    /// Moves a mesh as a whole by an affine map, three rows of four; `None`: not at all.
+    /// Moves a mesh as a whole by an affine map, three rows of four; `None`: not at all. A shape is rotated, moved, and
+    /// scaled along all axes alike.
     pub fn set_transform(&mut self, mesh: Mesh, matrix: Option<&[f64; 12]>) -> Result<()> {
         let matrix = matrix.map_or(null(), std::ptr::from_ref);
         check(unsafe { sys::vox_body_set_transform(self.get_mut(), mesh.0, matrix) })

@@ -10,6 +10,7 @@ mod grid;
 pub mod io;
 mod locator;
 mod options;
+mod shape;
 
 pub use callbacks::{LogLevel, TaskSystem};
 pub use cell_size::{
@@ -21,6 +22,7 @@ pub use foreign::{tune, CellsKept, CellsQueried, CellsStored, ForeignGrid, Known
 pub use grid::{step_grids, Failure, Grid, MeshInfo};
 pub use locator::{Locator, QueryOptions};
 pub use options::{ConstraintOptions, DepthMethod, Filter, GridOptions, Mesh, MeshOptions, Reference};
+pub use shape::{polyline, Shape, ShapeOptions};
 
 #[cfg(feature = "rayon")]
 pub use callbacks::RayonTasks;
@@ -72,6 +74,15 @@ pub mod constraint_kind {
     pub use voxtet_sys::{
         VOX_CONSTRAINT_EDGE as EDGE, VOX_CONSTRAINT_IMPACT as IMPACT, VOX_CONSTRAINT_INSIDE as INSIDE,
         VOX_CONSTRAINT_PROXIMITY as PROXIMITY,
+    };
+}
+
+/// Values of [`MeshInfo::shape`].
+pub mod shape_kind {
+    pub use voxtet_sys::{
+        VOX_SHAPE_BOX as BOX, VOX_SHAPE_CAPSULE as CAPSULE, VOX_SHAPE_CYLINDER as CYLINDER, VOX_SHAPE_FIELD as FIELD,
+        VOX_SHAPE_HALF_SPACE as HALF_SPACE, VOX_SHAPE_HEIGHTFIELD as HEIGHTFIELD, VOX_SHAPE_NONE as NONE,
+        VOX_SHAPE_SHEET as SHEET, VOX_SHAPE_SOLID as SOLID, VOX_SHAPE_SPHERE as SPHERE,
     };
 }
 

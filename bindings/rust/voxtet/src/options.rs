@@ -8,7 +8,7 @@ use crate::error::sized;
 use crate::grid::or_null;
 use crate::CostWeights;
 
-/// Names a mesh in its grid. A removed mesh's id is never used again, so a stale one is an error and nothing worse.
+/// Names a mesh or a rigid shape in its grid. A removed one's id is never used again, so a stale one is an error and nothing worse.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Mesh(pub(crate) u32);
 

@@ -43,6 +43,86 @@ fn code<T>(result: Result<T>) -> ErrorCode {
     result.err().expect("a failure").code()
 }
 
+/// A point and a shape; the gap and normal of their only constraint.
+fn touch(shape: Shape<'_>, at: [f64; 3]) -> (f64, [f64; 3]) {
+    let mut grid = Grid::with_options(GridOptions { constraints: true, ..GridOptions::default() }).unwrap();
+    let point = grid.add(&[at, [2.0, 3.0, 4.0]], &[]).unwrap();
+    let options = ShapeOptions { user_data: 7, ..ShapeOptions::default() };
+    let body = grid.add_shape(shape, options).unwrap();
+    grid.step().unwrap();
+    let [c] = grid.constraints().unwrap() else {
+        panic!("{shape:?}: {} constraints", grid.constraints().unwrap().len())
+    };
+    assert!(c.body_a == point && c.body_b == body && c.user_data_b == 7);
+    assert_eq!((c.count, c.count_a, c.vertices[0]), (1, 1, 0));
+    assert_ne!(grid.info(body).unwrap().shape, shape_kind::NONE);
+    assert_eq!(grid.info(point).unwrap().shape, shape_kind::NONE);
+    (c.gap, c.normal)
+}
+
+#[test]
+fn shapes() {
+    let (half_length, triangles) = (1.0, [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]);
+    let positions = UNIT.map(|p| p.map(f64::from));
+    let (up, down, x, y) = ([0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
+    let heights = [-0.5; 6];
+    let line = polyline(2);
+    let positions = &positions[..];
+    for (shape, at, gap, normal) in [
+        (Shape::HalfSpace, [3.0, 4.0, -0.25], -0.25, up),
+        (Shape::Sphere { radius: 1.0 }, [0.5, 0.0, 0.0], -0.5, x),
+        (Shape::Capsule { radius: 0.5, half_length }, [0.25, 0.0, 1.0], -0.25, x),
+        (Shape::Cylinder { radius: 0.5, half_length }, [0.0, 0.25, 0.5], -0.25, y),
+        (Shape::Box { half_size: [1.0, 0.5, 2.0] }, [0.0, 0.25, 0.0], -0.25, y),
+        (Shape::Heightfield { heights: &heights, columns: 3, spacing: [1.0, 2.0] }, [1.0, 1.0, -0.75], -0.25, up),
+        (Shape::Solid { positions, triangles: &triangles }, [0.25, 0.25, 0.125], -0.125, down),
+        (Shape::Sheet { positions, triangles: &triangles, radius: 0.25 }, [0.25, 0.25, -0.125], -0.125, down),
+        (Shape::Sheet { positions, triangles: &line, radius: 0.25 }, [0.5, 0.0, -0.125], -0.125, down),
+    ] {
+        let found = touch(shape, at);
+        assert!((found.0 - gap).abs() < 1e-12, "{shape:?}: {found:?}");
+        assert!((0..3).all(|k| (found.1[k] - normal[k]).abs() < 1e-12), "{shape:?}: {found:?}");
+    }
+    assert!(polyline(0).is_empty() && polyline(1).is_empty());
+}
+
+#[test]
+fn shapes_move_and_are_refused() {
+    let mut grid = Grid::with_options(GridOptions { constraints: true, ..GridOptions::default() }).unwrap();
+    let point = grid.add(&[[0.0f64, 0.0, 3.0]], &[]).unwrap();
+    let ball = grid.add_shape(Shape::Sphere { radius: 0.25 }, ShapeOptions::default()).unwrap();
+    let at = |z: f64| [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, z];
+    grid.set_transform(ball, Some(&at(6.0))).unwrap();
+    grid.set_previous_transform(ball, Some(&at(0.0))).unwrap();
+    grid.step().unwrap();
+    let c = grid.constraints().unwrap()[0];
+    assert_eq!(c.kind, constraint_kind::IMPACT);
+    assert!((c.time - 2.75 / 6.0).abs() < 1e-9);
+    grid.set_previous_transform(ball, None).unwrap();
+    grid.step().unwrap();
+    assert!(grid.constraints().unwrap().is_empty());
+
+    assert_eq!(code(grid.set_previous_transform(point, Some(&at(0.0)))), ErrorCode::InvalidArgument);
+    let mut bent = at(0.0);
+    bent[0] = 2.0;
+    assert_eq!(code(grid.set_transform(ball, Some(&bent))), ErrorCode::InvalidArgument);
+    let mut refused = |shape| code(grid.add_shape(shape, ShapeOptions::default()));
+    assert_eq!(refused(Shape::Sphere { radius: -1.0 }), ErrorCode::InvalidArgument);
+    let heights = [0.0; 5];
+    for columns in [0, 2] {
+        let uneven = Shape::Heightfield { heights: &heights, columns, spacing: [1.0, 1.0] };
+        assert_eq!(refused(uneven), ErrorCode::InvalidArgument);
+    }
+    assert_eq!(refused(Shape::Solid { positions: &[], triangles: &[] }), ErrorCode::InvalidArgument);
+    assert_eq!(
+        refused(Shape::Sheet { positions: &[[0.0; 3]], triangles: &[[0, 0, 1]], radius: 1.0 }),
+        ErrorCode::InvalidMesh
+    );
+    assert_eq!(code(grid.positions_mut::<f32>(ball)), ErrorCode::InvalidArgument);
+    grid.remove(ball).unwrap();
+    assert_eq!(code(grid.set_previous_transform(ball, None)), ErrorCode::InvalidHandle);
+}
+
 #[test]
 fn errors() {
     let mut grid = Grid::new().unwrap();
