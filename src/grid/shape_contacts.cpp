@@ -104,7 +104,8 @@ void ShapeContacts::list_tasks(const StepScene& scene) {
             reserve_growing(tasks_, tasks_.size() + groups / task_groups + 1);
             if (!changed_ && !scene.of[a].moved && !has_previous(scene, a) && !placed_[p].moves) {
                 const std::tuple sought(body.mesh_id, shape.mesh_id);
-                const auto same = std::ranges::equal_range(std::span(all_).subspan(carried), sought, {}, place);
+                const auto same =
+                    std::ranges::equal_range(std::span(all_).subspan(carried), sought, {}, place);
                 const auto first = static_cast<std::size_t>(same.begin() - std::span(all_).begin());
                 carried = first + same.size();
                 if (!same.empty()) tasks_.push_back({a, p, first, carried, true, 0, 0, 0, 0});
@@ -121,9 +122,9 @@ void ShapeContacts::list_tasks(const StepScene& scene) {
 
 struct ShapeContacts::Search {
     Search(const ShapeContacts& of, const StepScene& step, const Task& task, Array<ShapeContact>& to)
-        : scene(step), body(step.bodies[task.body]), of_body(step.of[task.body]), placed(of.placed_[task.placed]),
-          shape(*placed.shape), out(to), margin(of.margin_), reach(margin / placed.now.scale()),
-          slack(growth(step.boxes->bodies[task.body], 0)),
+        : scene(step), body(step.bodies[task.body]), of_body(step.of[task.body]),
+          placed(of.placed_[task.placed]), shape(*placed.shape), out(to), margin(of.margin_),
+          reach(margin / placed.now.scale()), slack(growth(step.boxes->bodies[task.body], 0)),
           has_previous(of.has_previous(step, task.body)), moves(has_previous || placed.moves) {
         const RigidShape::Bounds& b = placed.bounds;
         const Vec3d lo = b.min - step.origin, hi = b.max - step.origin;

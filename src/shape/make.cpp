@@ -23,7 +23,8 @@ void check_length(double length, const char* name) {
 
 void check_coordinate(double x, const char* what, std::uint64_t index) {
     if (!std::isfinite(x))
-        throw Error(VOX_ERROR_NON_FINITE, format("shape %s %llu is %g, not a finite number", what, llu(index), x));
+        throw Error(VOX_ERROR_NON_FINITE,
+                    format("shape %s %llu is %g, not a finite number", what, llu(index), x));
     if (std::abs(x) > largest)
         throw Error(VOX_ERROR_LIMIT,
                     format("shape %s %llu is %g, the limit is %g", what, llu(index), x, largest));
@@ -56,8 +57,8 @@ Array<ShapeTriangle> read_triangles(const vox_shape_desc& desc, std::pmr::memory
         const std::uint32_t* const v = desc.triangles + 3 * t;
         for (int i = 0; i < 3; ++i)
             if (v[i] >= desc.positions.count)
-                throw Error(VOX_ERROR_INVALID_MESH, format("shape triangle %zu names vertex %u of %llu", t, v[i],
-                                                           llu(desc.positions.count)));
+                throw Error(VOX_ERROR_INVALID_MESH, format("shape triangle %zu names vertex %u of %llu", t,
+                                                           v[i], llu(desc.positions.count)));
         triangles.push_back({v[0], v[1], v[2]});
     }
     return triangles;
@@ -65,11 +66,12 @@ Array<ShapeTriangle> read_triangles(const vox_shape_desc& desc, std::pmr::memory
 
 Array<Vec3d> read_heights(const vox_shape_desc& desc, std::pmr::memory_resource* memory) {
     if (desc.columns < 2 || desc.rows < 2)
-        refuse(format("shape has %u columns and %u rows, expected 2 or more of both", desc.columns, desc.rows));
+        refuse(
+            format("shape has %u columns and %u rows, expected 2 or more of both", desc.columns, desc.rows));
     const std::uint64_t count = std::uint64_t{desc.columns} * desc.rows;
     if (2 * count > VOX_MAX_SURFACE_TETS)
-        throw Error(VOX_ERROR_LIMIT, format("shape has %llu heights, the limit is %u", llu(count),
-                                            VOX_MAX_SURFACE_TETS / 2));
+        throw Error(VOX_ERROR_LIMIT,
+                    format("shape has %llu heights, the limit is %u", llu(count), VOX_MAX_SURFACE_TETS / 2));
     require(desc.heights, "shape heights");
     for (int i = 0; i < 2; ++i)
         if (!(desc.spacing[i] > 0 && desc.spacing[i] * (i == 0 ? desc.columns : desc.rows) <= largest))
@@ -103,8 +105,10 @@ std::shared_ptr<const RigidShape> made(std::pmr::memory_resource* memory, Argume
 std::shared_ptr<const RigidShape> make_shape(const vox_shape_desc& desc, std::pmr::memory_resource* memory) {
     check_enum(desc.kind, VOX_SHAPE_FIELD, "shape kind");
     switch (desc.kind) {
-    case VOX_SHAPE_NONE: break;
-    case VOX_SHAPE_HALF_SPACE: return made<HalfSpace>(memory);
+    case VOX_SHAPE_NONE:
+        break;
+    case VOX_SHAPE_HALF_SPACE:
+        return made<HalfSpace>(memory);
     case VOX_SHAPE_SPHERE:
         check_length(desc.radius, "radius");
         return made<Capsule>(memory, desc.kind, desc.radius, 0.0);
@@ -116,8 +120,10 @@ std::shared_ptr<const RigidShape> make_shape(const vox_shape_desc& desc, std::pm
         check_length(desc.radius, "radius");
         check_length(desc.half_length, "half_length");
         return made<Cylinder>(memory, desc.radius, desc.half_length);
-    case VOX_SHAPE_BOX: return made<BoxShape>(memory, read_half_size(desc));
-    case VOX_SHAPE_HEIGHTFIELD: return made<Heightfield>(memory, read_heights(desc, memory), desc.columns, desc.rows);
+    case VOX_SHAPE_BOX:
+        return made<BoxShape>(memory, read_half_size(desc));
+    case VOX_SHAPE_HEIGHTFIELD:
+        return made<Heightfield>(memory, read_heights(desc, memory), desc.columns, desc.rows);
     case VOX_SHAPE_SOLID:
         return made<ClosedSurface>(memory, read_points(desc, memory), read_triangles(desc, memory));
     case VOX_SHAPE_SHEET:

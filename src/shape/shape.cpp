@@ -23,11 +23,7 @@ bool RigidShape::is_beyond(const Vec3d& centre, double radius, double reach) con
 
 double RigidShape::meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at) const {
     return convex_meeting(
-        from, to,
-        [this](const Vec3d& p, ShapePoint& out) {
-            (void)look(p, unlimited, out);
-        },
-        at);
+        from, to, [this](const Vec3d& p, ShapePoint& out) { (void)look(p, unlimited, out); }, at);
 }
 
 // ---- places ---------------------------------------------------------------------------------------
@@ -51,8 +47,9 @@ void ShapePlace::check(const double* m, const char* name) {
     const double scale = lengths[0];
     for (const double one : lengths)
         if (!(one >= least_scale && one <= most_scale && std::abs(one - scale) <= tolerance * scale))
-            refuse(format("%s scales the axes by %g, %g and %g: a shape needs one scale for all, from %g to %g",
-                          name, lengths[0], lengths[1], lengths[2], least_scale, most_scale));
+            refuse(
+                format("%s scales the axes by %g, %g and %g: a shape needs one scale for all, from %g to %g",
+                       name, lengths[0], lengths[1], lengths[2], least_scale, most_scale));
     const Vec3d a = (1 / lengths[0]) * x, b = (1 / lengths[1]) * y, c = (1 / lengths[2]) * z;
     const double skew = std::max({std::abs(dot(a, b)), std::abs(dot(b, c)), std::abs(dot(c, a))});
     if (skew > tolerance)
@@ -79,7 +76,7 @@ Vec3d ShapePlace::to_world(const Vec3d& d) const noexcept {
 }
 
 RigidShape::Bounds ShapePlace::to_world(const RigidShape::Bounds& bounds) const noexcept {
-    const auto along = [&](const double (&row)[3], double origin, double& low, double& high) {
+    const auto along = [&](const double(&row)[3], double origin, double& low, double& high) {
         const double least[3] = {bounds.min.x, bounds.min.y, bounds.min.z},
                      most[3] = {bounds.max.x, bounds.max.y, bounds.max.z};
         low = high = origin;

@@ -1,5 +1,5 @@
-// Rigid shapes: floors, tools, terrain. Each is a class, and says of a point in the shape's frame how far away
-// it is and on which side.
+// Rigid shapes: floors, tools, terrain. Each is a class, and says of a point in the shape's frame how far
+// away it is and on which side.
 #pragma once
 
 #include "base/scene.hpp"
