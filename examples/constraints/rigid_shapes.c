@@ -1,5 +1,5 @@
-/* Rigid shapes: a cube in a floor, a finger that presses it, a blade through it, and a ball that went through within one
- * step. One loop reads them all. */
+/* Rigid shapes: a cube in a floor, a finger that presses it, a blade through it, and a ball that went through
+ * within one step. One loop reads them all. */
 #include "example.h"
 
 static vox_body insert(vox_grid* grid, const vox_shape_desc* desc, const double matrix[12]) {
@@ -39,7 +39,8 @@ int main(void) {
     shape = vox_default_shape_desc();
     shape.kind = VOX_SHAPE_SPHERE;
     shape.radius = 0.25;
-    const double from[12] = {1, 0, 0, -4, 0, 1, 0, 1, 0, 0, 1, 0.75}, to[12] = {1, 0, 0, 4, 0, 1, 0, 1, 0, 0, 1, 0.75};
+    const double from[12] = {1, 0, 0, -4, 0, 1, 0, 1, 0, 0, 1, 0.75},
+                 to[12] = {1, 0, 0, 4, 0, 1, 0, 1, 0, 0, 1, 0.75};
     const vox_body ball = insert(grid, &shape, to);
     must(vox_shape_set_previous_transform(grid, ball, from));
 
@@ -49,7 +50,11 @@ int main(void) {
     const char* const kinds[4] = {"inside", "edge", "near", "impact"};
     for (uint64_t i = 0; i < found.count; ++i) {
         const vox_constraint* c = &found.data[i];
-        printf("%s, %s %u", c->body_b == plane ? "floor" : c->body_b == finger ? "finger" : c->body_b == blade ? "blade" : "ball",
+        printf("%s, %s %u",
+               c->body_b == plane    ? "floor"
+               : c->body_b == finger ? "finger"
+               : c->body_b == blade  ? "blade"
+                                     : "ball",
                kinds[c->kind], (unsigned)c->vertices[0]);
         if (c->count == 2) printf(" %u", (unsigned)c->vertices[1]);
         if (c->count == 3) printf(" %u %u", (unsigned)c->vertices[1], (unsigned)c->vertices[2]);

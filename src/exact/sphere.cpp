@@ -63,27 +63,56 @@ private:
     std::size_t size_ = 0;
 };
 
+Pair root(const Pair& squared) noexcept {
+    const double root = std::sqrt(squared.high);
+    const Pair square = exact_product(root, root);
+    return {root, (((squared.high - square.high) - square.low) + squared.low) / (2 * root)};
+}
+
+constexpr double too_small = 0x1p-300; // squares of smaller numbers would lose digits
+constexpr int upwards = 700;           // powers of two
+
 } // namespace
 
 double distance_to_sphere(const Vec3d& p, double radius) noexcept {
     const double largest = std::max(largest_coordinate(p), radius);
     if (largest == 0) return 0;
-    if (largest < 0x1p-300) // squares would lose digits
-        return std::ldexp(distance_to_sphere(times_power(p, 700), std::ldexp(radius, 700)), -700);
+    if (largest < too_small)
+        return std::ldexp(distance_to_sphere(times_power(p, upwards), std::ldexp(radius, upwards)), -upwards);
     Expansion sum;
     for (const double x : {p.x, p.y, p.z}) sum.add(exact_product(x, x));
     const Pair squared = sum.rounded();
     if (squared.high == 0) return -radius;
-    const double length = std::sqrt(squared.high);
-    const Pair square = exact_product(length, length), limit = exact_product(radius, radius);
-    Pair under = exact_sum(length, radius);
-    under.low += (((squared.high - square.high) - square.low) + squared.low) / (2 * length);
+    const Pair length = root(squared), limit = exact_product(radius, radius);
+    Pair under = exact_sum(length.high, radius);
+    under.low += length.low;
     sum.add({-limit.high, -limit.low});
     const Pair over = sum.rounded();
     const double quotient = over.high / under.high;
     const Pair product = exact_product(quotient, under.high);
     const double rest = ((over.high - product.high) - product.low) + (over.low - quotient * under.low);
     return quotient + rest / under.high;
+}
+
+double distance_to_box(const Vec3d& p, const Vec3d& half_size) noexcept {
+    const double at[3] = {p.x, p.y, p.z}, half[3] = {half_size.x, half_size.y, half_size.z};
+    Pair beyond[3];
+    double largest = 0;
+    for (int i = 0; i < 3; ++i) {
+        beyond[i] = exact_sum(std::abs(at[i]), -half[i]);
+        largest = std::max(largest, beyond[i].high);
+    }
+    if (largest == 0) return 0;
+    const int powers = largest < too_small ? upwards : 0;
+    Expansion sum;
+    for (const auto& [high, low] : beyond) {
+        if (!(high > 0)) continue;
+        const double x = std::ldexp(high, powers);
+        sum.add(exact_product(x, x));
+        sum.add(2 * x * std::ldexp(low, powers)); // what that leaves out is below its last place
+    }
+    const Pair length = root(sum.rounded());
+    return std::ldexp(length.high + length.low, -powers);
 }
 
 } // namespace vox

@@ -143,9 +143,8 @@ bool BoxShape::look(const Vec3d& p, double reach, ShapePoint& out) const {
         return decide(true, beyond[nearest], reach, out);
     }
     for (int i = 0; i < 3; ++i) normal[i] = beyond[i] > 0 ? sign_of(at[i]) * beyond[i] : 0;
-    const Stretch way(vector_of(normal));
-    out.normal = way.direction;
-    return decide(false, way.length, reach, out);
+    out.normal = Stretch(vector_of(normal)).direction;
+    return decide(false, distance_to_box(p, half_size_), reach, out);
 }
 
 vox_shape_desc BoxShape::desc() const noexcept {

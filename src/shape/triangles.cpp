@@ -24,6 +24,13 @@ RigidShape::Bounds bounds_of(std::span<const Vec3d> points, double radius) noexc
     return {bounds.min - reach, bounds.max + reach};
 }
 
+// A unit vector at right angles to the direction of v; along z for zero.
+Vec3d across(const Vec3d& v) noexcept {
+    const Vec3d d = scaled(v);
+    const Vec3d unit = normalised(std::abs(d.x) < std::abs(d.z) ? Vec3d{0, d.z, -d.y} : Vec3d{-d.y, d.x, 0});
+    return length(unit) > 0 ? unit : Vec3d{0, 0, 1};
+}
+
 } // namespace
 
 TriangleShape::TriangleShape(vox_shape_kind kind, Array<Vec3d>&& points, Array<ShapeTriangle>&& triangles,
@@ -54,22 +61,23 @@ void TriangleShape::look_at(const Vec3d& p, std::uint32_t triangle, bool is_encl
     out.normal = is_enclosed ? way.direction : -1.0 * way.direction;
     out.element = triangle;
     // So close that rounding errors would turn the way: across the triangle. On its edges that is as good as
-    // any other direction.
+    // any other direction, but not as good as the way, if that is not quite as short.
     const double reach =
         std::max({largest_coordinate(a - p), largest_coordinate(b - p), largest_coordinate(c - p)});
-    if (way.length > 0x1p-20 * reach) return;
+    const auto& [of_a, of_b, of_c] = seen.at.weight;
+    if (way.length > (of_a > 0 && of_b > 0 && of_c > 0 ? 0x1p-20 : 0x1p-40) * reach) return;
     std::uint64_t exact_tests = 0;
     const Vec3d normal = triangle_normal(a, b, c);
     const bool is_behind = !is_enclosed && orientation(a, b, c, p, exact_tests) < 0;
     if (length(normal) > 0)
         out.normal = is_behind ? -1.0 * normal : normal;
-    else if (!(way.length > 0))
-        out.normal = {0, 0, 1};
+    else if (!(way.length > 0x1p-48 * reach))
+        out.normal = across(largest_coordinate(b - a) > 0 ? b - a : c - a);
 }
 
 bool TriangleShape::look(const Vec3d& p, double reach, ShapePoint& out) const {
-    const bool is_enclosed = encloses(p);
-    const double far = is_enclosed ? unlimited : (reach + radius_) * (1 + 0x1p-40);
+    const bool is_enclosed = encloses(p), is_on = radius_ == 0 && is_on_surface(p);
+    const double far = is_enclosed || is_on ? unlimited : (reach + radius_) * (1 + 0x1p-40);
     double most = far * far; // distance, squared
     std::uint32_t nearest = VOX_NONE;
     facets_.triangle_tree.visit_nearest_first(
@@ -84,19 +92,21 @@ bool TriangleShape::look(const Vec3d& p, double reach, ShapePoint& out) const {
         });
     if (nearest == VOX_NONE) return false;
     look_at(p, nearest, is_enclosed, out);
-    out.is_inside = is_enclosed || (radius_ > 0 ? out.distance <= 0 : is_on_surface(p));
-    if (out.is_inside) out.distance = std::min(out.distance, 0.0);
+    out.is_inside = is_enclosed || is_on || (radius_ > 0 && out.distance <= 0);
+    if (is_on) out.distance = 0;
     return out.distance <= reach;
 }
 
-// Without a triangle near, all of the points are inside if one is.
+// Without a triangle near, all points above and below the bounds are inside if one is: terrain has no
+// triangles at its border.
 bool TriangleShape::is_beyond(const Vec3d& centre, double radius, double reach) const {
     const double far = (radius + reach + radius_) * (1 + 0x1p-40);
     bool is_near = false;
     facets_.triangle_tree.visit_accepted(
         [&](const Box3f& box) { return !is_near && squared_distance_bound(centre, box) <= far * far; },
         [&](std::uint32_t) { is_near = true; });
-    return !is_near && !encloses(centre);
+    const Vec3d nearest = min(max(centre, bounds_.min), bounds_.max);
+    return !is_near && !encloses({nearest.x, nearest.y, centre.z});
 }
 
 double TriangleShape::meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at) const {
@@ -197,7 +207,6 @@ bool ClosedSurface::encloses(const Vec3d& p) const {
           p.y <= bounds_.max.y && p.z <= bounds_.max.z))
         return false;
     int turns = 0;
-    bool is_on = false;
     std::uint64_t exact_tests = 0;
     facets_.triangle_tree.visit_accepted(
         [&](const Box3f& box) {
@@ -211,11 +220,9 @@ bool ClosedSurface::encloses(const Vec3d& p) const {
             if (of_ab == 0 || side_from_above(b, c, p, exact_tests) != of_ab ||
                 side_from_above(c, a, p, exact_tests) != of_ab)
                 return;
-            const int side = orientation(a, b, c, p, exact_tests);
-            if (side == 0) is_on = true;
-            if (side == -of_ab) turns += of_ab;
+            if (orientation(a, b, c, p, exact_tests) == -of_ab) turns += of_ab;
         });
-    return turns != 0 || is_on || is_on_surface(p);
+    return turns != 0;
 }
 
 // ---- heightfield ----------------------------------------------------------------------------------

@@ -23,7 +23,7 @@ protected:
     TriangleShape(vox_shape_kind kind, Array<Vec3d>&& points, Array<ShapeTriangle>&& triangles,
                   double radius);
 
-    // Whether p is in what the triangles enclose.
+    // Whether p, which is not on a triangle, is in what the triangles enclose.
     virtual bool encloses(const Vec3d& p) const = 0;
     bool is_on_surface(const Vec3d& p) const;
     const Vec3d& corner(const ShapeTriangle& triangle, std::size_t i) const noexcept {
