@@ -128,7 +128,7 @@ std::uint32_t Field::look(std::span<const Vec3d> points, double reach, ShapePoin
 // Nothing is known of a field but that the surface is no closer than the distance (J. C. Hart, Sphere
 // tracing, The Visual Computer 12, 1996).
 double Field::meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at) const {
-    constexpr int most_spheres = 256; // a way that grazes takes so many, and counts as meeting
+    constexpr int most_spheres = 2048; // a way that grazes takes so many, and counts as meeting
     const Vec3d way = to - from;
     const double all = length(way),
                  close = 0x1p-46 * std::max(largest_coordinate(from), largest_coordinate(to));

@@ -125,19 +125,25 @@ bool is_inside(const Sample& s, const Vec3d& p, Random& random) {
     const vox_shape_desc& d = s.desc;
     const Rational flat = squared(p.x) + squared(p.y), limit = squared(d.radius);
     switch (d.kind) {
-    case VOX_SHAPE_HALF_SPACE: return p.z <= 0;
-    case VOX_SHAPE_SPHERE: return (flat + squared(p.z) - limit).sign() <= 0;
+    case VOX_SHAPE_HALF_SPACE:
+        return p.z <= 0;
+    case VOX_SHAPE_SPHERE:
+        return (flat + squared(p.z) - limit).sign() <= 0;
     case VOX_SHAPE_CAPSULE: {
         const Rational along = Rational(p.z) - std::clamp(p.z, -d.half_length, d.half_length);
         return (flat + along * along - limit).sign() <= 0;
     }
-    case VOX_SHAPE_CYLINDER: return (flat - limit).sign() <= 0 && std::abs(p.z) <= d.half_length;
+    case VOX_SHAPE_CYLINDER:
+        return (flat - limit).sign() <= 0 && std::abs(p.z) <= d.half_length;
     case VOX_SHAPE_BOX:
         return std::abs(p.x) <= d.half_size[0] && std::abs(p.y) <= d.half_size[1] &&
                std::abs(p.z) <= d.half_size[2];
-    case VOX_SHAPE_HEIGHTFIELD: return is_below(s, p);
-    case VOX_SHAPE_SOLID: return is_on_triangles(s, p) || turns_around(s, p, random) != 0;
-    default: return is_on_triangles(s, p);
+    case VOX_SHAPE_HEIGHTFIELD:
+        return is_below(s, p);
+    case VOX_SHAPE_SOLID:
+        return is_on_triangles(s, p) || turns_around(s, p, random) != 0;
+    default:
+        return is_on_triangles(s, p);
     }
 }
 
@@ -151,7 +157,8 @@ Point real(const Vec3d& p) { return {p.x, p.y, p.z}; }
 
 Real to_segment(const Point& p, const Point& a, const Point& b) {
     const Point ab = sum(b, -1, a), ap = sum(p, -1, a);
-    const Real length = product(ab, ab), t = length > 0 ? std::clamp<Real>(product(ap, ab) / length, 0, 1) : 0;
+    const Real length = product(ab, ab),
+               t = length > 0 ? std::clamp<Real>(product(ap, ab) / length, 0, 1) : 0;
     const Point way = sum(ap, -t, ab);
     return std::sqrt(product(way, way));
 }
@@ -195,15 +202,19 @@ Real distance(const Sample& s, const Point& p) {
     const vox_shape_desc& d = s.desc;
     const Real along = std::abs(p[2]) - d.half_length, flat = std::hypot(p[0], p[1]);
     switch (d.kind) {
-    case VOX_SHAPE_HALF_SPACE: return std::abs(p[2]);
-    case VOX_SHAPE_SPHERE: return std::abs(std::hypot(flat, p[2]) - d.radius);
-    case VOX_SHAPE_CAPSULE: return std::abs(std::hypot(flat, std::max<Real>(along, 0)) - d.radius);
+    case VOX_SHAPE_HALF_SPACE:
+        return std::abs(p[2]);
+    case VOX_SHAPE_SPHERE:
+        return std::abs(std::hypot(flat, p[2]) - d.radius);
+    case VOX_SHAPE_CAPSULE:
+        return std::abs(std::hypot(flat, std::max<Real>(along, 0)) - d.radius);
     case VOX_SHAPE_CYLINDER:
         if (flat <= d.radius && along <= 0) return -std::max(flat - d.radius, along);
         return std::hypot(std::max<Real>(flat - d.radius, 0), std::max<Real>(along, 0));
     case VOX_SHAPE_BOX: {
         Real beyond[3], most = -std::numeric_limits<Real>::infinity();
-        for (std::size_t i = 0; i < 3; ++i) most = std::max(most, beyond[i] = std::abs(p[i]) - d.half_size[i]);
+        for (std::size_t i = 0; i < 3; ++i)
+            most = std::max(most, beyond[i] = std::abs(p[i]) - d.half_size[i]);
         if (most <= 0) return -most;
         for (Real& x : beyond) x = std::max<Real>(x, 0);
         return std::hypot(beyond[0], beyond[1], beyond[2]);
@@ -251,8 +262,9 @@ bool check(const Sample& s, const RigidShape& shape, const Vec3d& p, double size
     ck_assert(shape.look(p, unlimited, seen));
     const bool is_thick = s.desc.kind == VOX_SHAPE_SHEET && s.desc.radius > 0;
     if (!is_thick)
-        ck_assert_msg(seen.is_inside == is_inside(s, p, random), "kind %d at %.17g %.17g %.17g: %d, triangle %u",
-                      s.desc.kind, p.x, p.y, p.z, seen.is_inside, seen.element);
+        ck_assert_msg(seen.is_inside == is_inside(s, p, random),
+                      "kind %d at %.17g %.17g %.17g: %d, triangle %u", s.desc.kind, p.x, p.y, p.z,
+                      seen.is_inside, seen.element);
     else
         ck_assert(seen.is_inside == (seen.distance <= 0));
     ck_assert(seen.is_inside ? seen.distance <= 0 : seen.distance >= 0);
@@ -271,8 +283,8 @@ bool check(const Sample& s, const RigidShape& shape, const Vec3d& p, double size
         const Real to_its = std::abs(to_one(s, seen.element, real(p)) - s.desc.radius);
         ck_assert(std::abs(to_its - true_distance) <= 2e-14L * size);
         const Real from_its = to_one(s, seen.element, on) - s.desc.radius;
-        ck_assert_msg(std::abs(from_its) < 1e-11L * size, "kind %d: %.3Lg at %.3g", s.desc.kind, from_its / size,
-                      seen.distance / size);
+        ck_assert_msg(std::abs(from_its) < 1e-11L * size, "kind %d: %.3Lg at %.3g", s.desc.kind,
+                      from_its / size, seen.distance / size);
     }
     if (!s.triangles.empty() && s.desc.radius == 0 && is_on_triangles(s, p)) ck_assert(seen.distance == 0);
     // Within a reach, and seen from afar.
@@ -298,20 +310,31 @@ double on_lattice(Random& random) { return (double(random.below(17)) - 8) / 4; }
 Vec3d any_point(Random& random, double size) {
     Vec3d p{on_lattice(random), on_lattice(random), on_lattice(random)};
     switch (random.below(4)) {
-    case 0: p = {4 * random.unit() - 2, 4 * random.unit() - 2, 4 * random.unit() - 2}; break;
-    case 1: p.x = std::nextafter(p.x, random.below(2) ? 9 : -9); break;
-    case 2: p.z = std::nextafter(p.z, random.below(2) ? 9 : -9); break;
-    default: break;
+    case 0:
+        p = {4 * random.unit() - 2, 4 * random.unit() - 2, 4 * random.unit() - 2};
+        break;
+    case 1:
+        p.x = std::nextafter(p.x, random.below(2) ? 9 : -9);
+        break;
+    case 2:
+        p.z = std::nextafter(p.z, random.below(2) ? 9 : -9);
+        break;
+    default:
+        break;
     }
     return size * p;
 }
 
 double length_of(Random& random) {
     switch (random.below(5)) {
-    case 0: return 0;
-    case 1: return random.unit();
-    case 2: return 1.25; // 0.75, 1, 1.25 is a right triangle
-    default: return random.below(8) / 4.;
+    case 0:
+        return 0;
+    case 1:
+        return random.unit();
+    case 2:
+        return 1.25; // 0.75, 1, 1.25 is a right triangle
+    default:
+        return random.below(8) / 4.;
     }
 }
 
