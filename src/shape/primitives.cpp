@@ -136,9 +136,10 @@ double Field::meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at) const 
     for (int sphere = 0; sphere < most_spheres; ++sphere) {
         const Vec3d p = from + time * way;
         (void)look({&p, 1}, unlimited, &at);
-        if (!(at.distance > close)) return time;
-        if (!(time * all + at.distance <= all)) return no_shape_meeting;
-        time += at.distance / all;
+        if (!(at.distance > close) && dot(at.normal, way) < 0) return time;
+        const double free = std::max(at.distance, close); // where it begins at the surface, too, and leaves
+        if (!(time * all + free < all)) return no_shape_meeting;
+        time += free / all;
     }
     return time;
 }

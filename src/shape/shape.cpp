@@ -49,6 +49,10 @@ void ShapePlace::check(const double* m, const char* name) {
             refuse(
                 format("%s scales the axes by %g, %g and %g: a shape needs one scale for all, from %g to %g",
                        name, lengths[0], lengths[1], lengths[2], least_scale, most_scale));
+    for (int i = 3; i < 12; i += 4)
+        if (std::abs(m[i]) > std::numeric_limits<float>::max())
+            refuse(format("%s[%d] is %g, the limit is %g", name, i, m[i],
+                          double{std::numeric_limits<float>::max()}));
     const Vec3d a = (1 / lengths[0]) * x, b = (1 / lengths[1]) * y, c = (1 / lengths[2]) * z;
     const double skew = std::max({std::abs(dot(a, b)), std::abs(dot(b, c)), std::abs(dot(c, a))});
     if (skew > tolerance)

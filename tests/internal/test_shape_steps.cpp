@@ -191,7 +191,8 @@ Scene any_scene(std::uint64_t seed, bool moves) {
         Shape s = any_shape(static_cast<vox_shape_kind>(kind), size / scale, random);
         s.now = any_place(random, scale, noise, around(2));
         s.moves = moves && random.below(2);
-        s.before = s.moves ? any_place(random, scale * (random.below(2) ? 1 : 1.25), noise, around(2)) : s.now;
+        s.before =
+            s.moves ? any_place(random, scale * (random.below(2) ? 1 : 1.25), noise, around(2)) : s.now;
         scene.shapes.push_back(std::move(s));
     }
     return scene;
@@ -205,7 +206,8 @@ vox_grid* grid_with(Scene& scene, const vox_grid_desc& settings) {
     for (std::size_t i = 0; i < scene.shapes.size() || i < scene.meshes.size(); ++i) {
         if (i < scene.meshes.size()) {
             Mesh& m = scene.meshes[i];
-            vox_mesh_desc of = vox_mesh_desc_doubles(m.now.data(), m.count(), m.tets.data(), m.tets.size() / 4);
+            vox_mesh_desc of =
+                vox_mesh_desc_doubles(m.now.data(), m.count(), m.tets.data(), m.tets.size() / 4);
             if (m.is_single) of.positions = vox_float_positions(m.single.data(), m.count());
             m.id = insert_mesh(grid, &of);
             if (m.is_placed) ck_ok(vox_body_set_transform(grid, m.id, m.place.data()));
@@ -259,8 +261,7 @@ std::uint64_t check_places(const vox_grid* grid, const Scene& scene) {
                 ck_assert_msg(is_expected == (c != nullptr), "%s: %d", named(s, v).c_str(), is_expected);
                 expected += is_expected;
                 if (!c) continue;
-                ck_assert_int_eq(c->kind,
-                                 seen.is_inside ? VOX_CONSTRAINT_INSIDE : VOX_CONSTRAINT_PROXIMITY);
+                ck_assert_int_eq(c->kind, seen.is_inside ? VOX_CONSTRAINT_INSIDE : VOX_CONSTRAINT_PROXIMITY);
                 ck_assert_int_eq(c->state, c->gap == 0 ? VOX_DEPTH_TOUCHING : VOX_DEPTH_CLOSEST);
                 const Vec3d normal = place.to_world(seen.normal);
                 ck_assert(c->gap == seen.distance * place.scale() && c->element_b == seen.element);
@@ -329,8 +330,10 @@ START_TEST(far_along_surfaces) {
         const ShapePlace place(s.now.data());
         for (int i = 0; i < 60 && (is_off || scene.meshes.empty()); ++i) {
             Vec3d p; // on the surface, nearly, by bisection of a way through it
-            Vec3d low{2 * size * symmetric(random), 2 * size * symmetric(random), 2 * size * symmetric(random)},
-                high{2 * size * symmetric(random), 2 * size * symmetric(random), 2 * size * symmetric(random)};
+            Vec3d low{2 * size * symmetric(random), 2 * size * symmetric(random),
+                      2 * size * symmetric(random)},
+                high{2 * size * symmetric(random), 2 * size * symmetric(random),
+                     2 * size * symmetric(random)};
             const auto is_inside = [&](const Vec3d& x) {
                 ShapePoint seen;
                 return s.rigid->look(place.to_shape(x), 0, seen) && seen.is_inside;
@@ -342,7 +345,8 @@ START_TEST(far_along_surfaces) {
             }
             Mesh m;
             for (int v = 0; v < 2; ++v)
-                for (const double x : {p.x, p.y, p.z}) m.now.push_back(x + (v ? spread * symmetric(random) : 0));
+                for (const double x : {p.x, p.y, p.z})
+                    m.now.push_back(x + (v ? spread * symmetric(random) : 0));
             scene.meshes.push_back(std::move(m));
         }
         scene.shapes.push_back(std::move(s));
@@ -411,7 +415,8 @@ std::uint64_t check_ways(const vox_grid* grid, const Scene& scene) {
                 if (latest > 1 || s.desc.kind == VOX_SHAPE_HEIGHTFIELD) {
                     // Through the side of terrain, where there is no surface.
                 } else if (ends_inside) {
-                    ck_assert_msg(c->time <= latest, "%s: %.17g, %.17g", named(s, v).c_str(), c->time, latest);
+                    ck_assert_msg(c->time <= latest, "%s: %.17g, %.17g", named(s, v).c_str(), c->time,
+                                  latest);
                 } else {
                     ck_assert_msg(c && c->kind == VOX_CONSTRAINT_IMPACT, "%s: %g", named(s, v).c_str(),
                                   latest);
