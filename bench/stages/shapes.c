@@ -1,7 +1,9 @@
-/* What rigid shapes cost: a floor under a ball, at several depths, beside a slab of five tetrahedra in its place; a tool of
- * some thousand triangles, and a blade, at many places in the ball. Prints Markdown tables; times are the least of many steps.
+/* What rigid shapes cost: a floor under a ball, at several depths, beside a slab of five tetrahedra in its
+ * place; a tool of some thousand triangles, and a blade, at many places in the ball. Prints Markdown tables;
+ * times are the least of many steps.
  *
- *     bench_shapes [half]     cells from the middle of the ball to its surface; 25 makes 330,000 tetrahedra */
+ *     bench_shapes [half]     cells from the middle of the ball to its surface; 25 makes 330,000 tetrahedra
+ */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -34,7 +36,8 @@ static cost cost_of(vox_grid* grid, vox_body ball) {
         must_(vox_grid_step(grid));
         least.step = fmin(least.step, now() - start);
         least.shapes = fmin(least.shapes, 1e-9 * (double)counter_of(grid, "shapes_ns"));
-        least.constraints = fmin(least.constraints, 1e-9 * (double)(counter_of(grid, "constraints_ns") + counter_of(grid, "depth_ns")));
+        least.constraints = fmin(least.constraints, 1e-9 * (double)(counter_of(grid, "constraints_ns") +
+                                                                    counter_of(grid, "depth_ns")));
         must_(vox_grid_get_constraints(grid, &found));
         least.found = found.count;
     }
@@ -58,7 +61,8 @@ static void place(vox_grid* grid, vox_body id, double x, double z) {
 
 static void time_floors(const body* ball, double half) {
     const double parts[] = {-0.1, 0.02, 0.1, 0.3, 0.5};
-    printf("| floor | vertices in it | finding, a vertex outside | finding, a vertex inside | with its constraint | slab |\n"
+    printf("| floor | vertices in it | finding, a vertex outside | finding, a vertex inside | with its "
+           "constraint | slab |\n"
            "|---|---:|---:|---:|---:|---:|\n");
     for (size_t i = 0; i < sizeof parts / sizeof *parts; ++i) {
         const double z = -half + 2 * half * parts[i];
@@ -74,7 +78,10 @@ static void time_floors(const body* ball, double half) {
         const cost alone = cost_of(grid, id);
         body slab = make_block(&five_cut, 1, 1, 1);
         for (uint32_t v = 0; v < slab.vertex_count; ++v)
-            for (int k = 0; k < 3; ++k) slab.positions[3 * v + k] = (float)(4 * half * ((double)slab.positions[3 * v + k] - (k < 2 ? 0.5 : 1)) + (k < 2 ? 0 : z));
+            for (int k = 0; k < 3; ++k)
+                slab.positions[3 * v + k] =
+                    (float)(4 * half * ((double)slab.positions[3 * v + k] - (k < 2 ? 0.5 : 1)) +
+                            (k < 2 ? 0 : z));
         const vox_mesh_desc mesh = body_desc(&slab);
         must_(vox_mesh_insert(grid, &mesh, &under));
         const cost of_slab = cost_of(grid, id);
@@ -85,7 +92,8 @@ static void time_floors(const body* ball, double half) {
         if (n < 0.01 * ball->vertex_count)
             printf("%.2f ns | - | - | - |\n", 1e9 * found.shapes / ball->vertex_count);
         else
-            printf("- | %.1f ns | %.1f ns | %.0f ns |\n", 1e9 * found.shapes / n, 1e9 * (found.shapes + found.constraints) / n,
+            printf("- | %.1f ns | %.1f ns | %.0f ns |\n", 1e9 * found.shapes / n,
+                   1e9 * (found.shapes + found.constraints) / n,
                    1e9 * (of_slab.step - alone.step) / (double)of_slab.found);
     }
 }
@@ -102,11 +110,13 @@ static vox_shape_desc make_tool(int divisions, double radius, double** positions
         for (int i = 0; i < n; ++i)
             for (int j = 0; j < 2 * (n - i) - 1; ++j)
                 for (int c = 0; c < 3; ++c) {
-                    const int down = j % 2, flip = (face & 1) ^ (face >> 1 & 1) ^ (face >> 2 & 1), k = flip ? 2 - c : c;
+                    const int down = j % 2, flip = (face & 1) ^ (face >> 1 & 1) ^ (face >> 2 & 1),
+                              k = flip ? 2 - c : c;
                     const int u = j / 2 + (down ? (k != 2) : k == 1), v = i + (down ? (k != 0) : k == 2);
                     double p[3] = {(double)u, (double)v, (double)(n - u - v)};
                     const double length = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
-                    for (int axis = 0; axis < 3; ++axis) p[axis] *= (face >> axis & 1 ? -radius : radius) / length;
+                    for (int axis = 0; axis < 3; ++axis)
+                        p[axis] *= (face >> axis & 1 ? -radius : radius) / length;
                     uint32_t same = 0;
                     while (same < vertices && memcmp(*positions + 3 * same, p, sizeof p) != 0) {
                         const double* q = *positions + 3 * same;
@@ -129,7 +139,8 @@ static void time_tools(const body* ball, double half) {
         vox_body id, tool;
         vox_grid* grid = grid_with(kind > 0 ? VOX_GRID_EDGES : 0, ball, &id);
         const cost alone = cost_of(grid, id);
-        double *positions = NULL, edge = 0.8 * half, blade[12] = {0, -edge, 0, 0, edge, 0, 0, edge, 2 * half, 0, -edge, 2 * half};
+        double *positions = NULL, edge = 0.8 * half,
+               blade[12] = {0, -edge, 0, 0, edge, 0, 0, edge, 2 * half, 0, -edge, 2 * half};
         uint32_t *triangles = NULL, two[6] = {0, 1, 2, 0, 2, 3};
         vox_shape_desc desc = make_tool(11, 0.3 * half, &positions, &triangles);
         if (kind > 0) {
@@ -142,14 +153,18 @@ static void time_tools(const body* ball, double half) {
         double step = 0, found = 0;
         enum { places = 20 };
         for (int i = 0; i < places; ++i) {
-            const double x = half * (2 * (i + 0.5) / places - 1), before[12] = {1, 0, 0, x - 0.05 * half, 0, 1, 0, 0, 0, 0, 1, 0.9 * half};
+            const double x = half * (2 * (i + 0.5) / places - 1),
+                         before[12] = {1, 0, 0, x - 0.05 * half, 0, 1, 0, 0, 0, 0, 1, 0.9 * half};
             place(grid, tool, x, kind ? 0 : 0.9 * half);
             if (kind == 2) must_(vox_shape_set_previous_transform(grid, tool, before));
             const cost here = cost_of(grid, id);
             step += here.step / places;
             found += (double)here.found / places;
         }
-        printf("| %s | %llu | %.0f | %.3f ms | %.3f ms |\n", kind == 0 ? "a ball" : kind == 1 ? "a blade, edges" : "a blade that moves, edges and impacts",
+        printf("| %s | %llu | %.0f | %.3f ms | %.3f ms |\n",
+               kind == 0   ? "a ball"
+               : kind == 1 ? "a blade, edges"
+                           : "a blade that moves, edges and impacts",
                (unsigned long long)desc.triangle_count, found, 1e3 * step, 1e3 * alone.step);
         free(positions);
         free(triangles);

@@ -21,6 +21,9 @@ namespace {
 
 constexpr std::size_t task_groups = 64; // that are worth a task of their own
 
+// More than what a few roundings move a point.
+double rounding_at(const Vec3d& p) noexcept { return 0x1p-48 * largest_coordinate(p); }
+
 std::size_t group_count(const fast::StepBody& of) noexcept {
     return (of.tiles->block_first.size() - 1 + fast::group_blocks - 1) / fast::group_blocks;
 }
@@ -61,7 +64,8 @@ void ShapeContacts::place_shapes(const StepScene& scene) {
         const ShapePlace now(body.positions.transform),
             before = moves ? ShapePlace(previous->matrix.data()) : now;
         RigidShape::Bounds bounds = now.to_world(body.shape->bounds());
-        const Vec3d reach{margin_, margin_, margin_};
+        const double far = margin_ * (1 + 4 * ShapePlace::tolerance);
+        const Vec3d reach{far, far, far};
         bounds = {bounds.min - reach, bounds.max + reach};
         reserve_growing(placed_, placed_.size() + 1);
         placed_.push_back({b, body.shape, now, before, moves, bounds});
@@ -152,19 +156,23 @@ struct ShapeContacts::Search {
 
     // In the world.
     Sphere around(const Box& b) const noexcept {
-        const Vec3d lo{b.lo[0], b.lo[1], b.lo[2]}, hi{b.hi[0], b.hi[1], b.hi[2]}, half = 0.5 * (hi - lo);
-        return {lo + half + scene.origin, length(half) * (1 + 0x1p-40) + 2 * double{slack}};
+        const Vec3d lo{b.lo[0], b.lo[1], b.lo[2]}, hi{b.hi[0], b.hi[1], b.hi[2]},
+            half = 0.5 * (hi - lo), centre = lo + half + scene.origin;
+        return {centre, length(half) * (1 + 0x1p-40) + 2 * double{slack} + rounding_at(centre)};
     }
     bool is_beyond(const Sphere& sphere) const {
-        return shape.is_beyond(placed.now.to_shape(sphere.centre), sphere.radius / placed.now.scale(), reach);
+        return is_beyond(placed.now.to_shape(sphere.centre), placed.now.to_shape(sphere.radius));
+    }
+    bool is_beyond(const Vec3d& centre, double radius) const {
+        return shape.is_beyond(centre, radius + rounding_at(centre), reach);
     }
     // On all straight ways from the one sphere to the other.
     bool stays_beyond(const Sphere& from, const Sphere& to) const {
         const Vec3d a = placed.before.to_shape(from.centre), b = placed.now.to_shape(to.centre),
                     half = 0.5 * (b - a);
-        const double radius = std::max(from.radius / placed.before.scale(), to.radius / placed.now.scale()) +
-                              2 * double{slack} / std::min(placed.before.scale(), placed.now.scale());
-        return shape.is_beyond(a + half, (length(half) + radius) * (1 + 0x1p-40), reach);
+        const double radius = std::max(placed.before.to_shape(from.radius + rounding_at(from.centre)),
+                                       placed.now.to_shape(to.radius));
+        return is_beyond(a + half, length(half) * (1 + 0x1p-40) + radius + rounding_at(a) + rounding_at(b));
     }
 
     void search_group(std::size_t group) {

@@ -69,7 +69,7 @@ Array<Vec3d> read_heights(const vox_shape_desc& desc, std::pmr::memory_resource*
         refuse(
             format("shape has %u columns and %u rows, expected 2 or more of both", desc.columns, desc.rows));
     const std::uint64_t count = std::uint64_t{desc.columns} * desc.rows;
-    if (2 * count > VOX_MAX_SURFACE_TETS)
+    if (count > VOX_MAX_SURFACE_TETS / 2)
         throw Error(VOX_ERROR_LIMIT,
                     format("shape has %llu heights, the limit is %u", llu(count), VOX_MAX_SURFACE_TETS / 2));
     require(desc.heights, "shape heights");

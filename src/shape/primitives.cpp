@@ -183,7 +183,7 @@ std::uint32_t Field::look(std::span<const Vec3d> points, double reach, ShapePoin
 // Nothing is known of a field but that the surface is no closer than the distance (J. C. Hart, Sphere
 // tracing, The Visual Computer 12, 1996).
 double Field::meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at) const {
-    constexpr int most_spheres = 256; // a way that grazes takes so many, and counts as meeting
+    constexpr int most_spheres = 2048; // a way that grazes takes so many, and counts as meeting
     const Vec3d way = to - from;
     const double all = length(way),
                  close = 0x1p-46 * std::max(largest_coordinate(from), largest_coordinate(to));
@@ -191,9 +191,10 @@ double Field::meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at) const 
     for (int sphere = 0; sphere < most_spheres; ++sphere) {
         const Vec3d p = from + time * way;
         (void)look({&p, 1}, unlimited, &at);
-        if (!(at.distance > close)) return time;
-        if (!(time * all + at.distance <= all)) return no_shape_meeting;
-        time += at.distance / all;
+        if (!(at.distance > close) && dot(at.normal, way) < 0) return time;
+        const double free = std::max(at.distance, close); // where it begins at the surface, too, and leaves
+        if (!(time * all + free < all)) return no_shape_meeting;
+        time += free / all;
     }
     return time;
 }

@@ -30,8 +30,7 @@ double RigidShape::meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at) c
 
 namespace {
 
-// Matrices of floats, and products of many, are rotations to that.
-constexpr double tolerance = 1e-5;
+constexpr double tolerance = ShapePlace::tolerance;
 constexpr double least_scale = 0x1p-100, most_scale = 0x1p100;
 
 constexpr double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
@@ -50,6 +49,10 @@ void ShapePlace::check(const double* m, const char* name) {
             refuse(
                 format("%s scales the axes by %g, %g and %g: a shape needs one scale for all, from %g to %g",
                        name, lengths[0], lengths[1], lengths[2], least_scale, most_scale));
+    for (int i = 3; i < 12; i += 4)
+        if (std::abs(m[i]) > std::numeric_limits<float>::max())
+            refuse(format("%s[%d] is %g, the limit is %g", name, i, m[i],
+                          double{std::numeric_limits<float>::max()}));
     const Vec3d a = (1 / lengths[0]) * x, b = (1 / lengths[1]) * y, c = (1 / lengths[2]) * z;
     const double skew = std::max({std::abs(dot(a, b)), std::abs(dot(b, c)), std::abs(dot(c, a))});
     if (skew > tolerance)
@@ -75,7 +78,11 @@ Vec3d ShapePlace::to_world(const Vec3d& d) const noexcept {
     return normalised((1 / scale_) * (d.x * axis_[0] + d.y * axis_[1] + d.z * axis_[2]));
 }
 
+// By the inverse of to_shape(), which is not quite the matrix where axes are off.
 RigidShape::Bounds ShapePlace::to_world(const RigidShape::Bounds& bounds) const noexcept {
+    const double by = 1 / (inverse_ * determinant(axis_[0], axis_[1], axis_[2]));
+    const Vec3d x = by * cross(axis_[1], axis_[2]), y = by * cross(axis_[2], axis_[0]),
+                z = by * cross(axis_[0], axis_[1]);
     const auto along = [&](const double(&row)[3], double origin, double& low, double& high) {
         const double least[3] = {bounds.min.x, bounds.min.y, bounds.min.z},
                      most[3] = {bounds.max.x, bounds.max.y, bounds.max.z};
@@ -87,9 +94,9 @@ RigidShape::Bounds ShapePlace::to_world(const RigidShape::Bounds& bounds) const 
         }
     };
     RigidShape::Bounds out;
-    along({axis_[0].x, axis_[1].x, axis_[2].x}, origin_.x, out.min.x, out.max.x);
-    along({axis_[0].y, axis_[1].y, axis_[2].y}, origin_.y, out.min.y, out.max.y);
-    along({axis_[0].z, axis_[1].z, axis_[2].z}, origin_.z, out.min.z, out.max.z);
+    along({x.x, y.x, z.x}, origin_.x, out.min.x, out.max.x);
+    along({x.y, y.y, z.y}, origin_.y, out.min.y, out.max.y);
+    along({x.z, y.z, z.z}, origin_.z, out.min.z, out.max.z);
     return out;
 }
 

@@ -76,7 +76,12 @@ public:
     // Throws INVALID_ARGUMENT for a matrix that is not of this kind.
     static void check(const double* matrix, const char* name);
 
+    // Matrices of floats, and products of many, are rotations to that.
+    static constexpr double tolerance = 1e-5;
+
     double scale() const noexcept { return scale_; }
+    // The least radius that holds what a ball becomes, and a little more.
+    double to_shape(double radius) const noexcept { return radius * (1 + 4 * tolerance) / scale_; }
     Vec3d to_shape(const Vec3d& x) const noexcept {
         const Vec3d d{x.x - origin_.x, x.y - origin_.y, x.z - origin_.z};
         return {inverse_ * ((axis_[0].x * d.x + axis_[0].y * d.y) + axis_[0].z * d.z),
