@@ -67,8 +67,8 @@ START_TEST(fields) {
     touches(vox::field(ball, 1, 1, 1), {0, 0.75, 0}, -0.25, {0, 1, 0});
     // A function that may throw is none, as nothing may cross the library.
     const auto throwing = [](vox::span<const triple>, vox::span<double>, vox::span<triple>) {};
-    static_assert(!std::is_nothrow_invocable_v<decltype(throwing)&, vox::span<const triple>, vox::span<double>,
-                                               vox::span<triple>>);
+    static_assert(!std::is_nothrow_invocable_v<decltype(throwing)&, vox::span<const triple>,
+                                               vox::span<double>, vox::span<triple>>);
 }
 END_TEST
 
