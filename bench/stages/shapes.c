@@ -4,14 +4,14 @@
  *
  *     bench_shapes [half]     cells from the middle of the ball to its surface; 25 makes 330,000 tetrahedra
  */
+#include "scenes/bodies.h"
+#include "scenes/counters.h"
+#include "timing.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "bench/timing.h"
-#include "scenes/bodies.h"
-#include "scenes/counters.h"
 
 enum { rounds = 15 };
 

@@ -57,6 +57,7 @@ NAVIGATION = [
             "docs/events.md",
             "docs/filters.md",
             "docs/edges.md",
+            "docs/shapes.md",
             "docs/queries.md",
             "docs/locate.md",
             "docs/tracks.md",

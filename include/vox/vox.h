@@ -803,7 +803,7 @@ VOX_API vox_result vox_mesh_get_tets(const vox_grid* grid, vox_body body, VOX_OP
  * their ids and positions, and which pairs touch. It does not contain allocator, log, tasks, worker_count,
  * byte_budget, margin, previous positions and results. *out_size is the number of bytes; with `bytes` null nothing is
  * written.
- * Errors: INVALID_ARGUMENT (the capacity is too small). */
+ * Errors: INVALID_ARGUMENT (the capacity is too small), INVALID_STATE (a shape with a FIELD). */
 VOX_API vox_result vox_grid_save(const vox_grid* grid, VOX_OPTIONAL void* bytes, uint64_t capacity, uint64_t* out_size);
 
 /* Creates a grid from a snapshot. Ids name the same bodies, and steps give the same results. Meshes own their

@@ -325,6 +325,15 @@ void ShapeContacts::find(const StepScene& scene, KeptFeatures& kept) {
 void ShapeContacts::list_results(const StepScene& scene) {
     const std::size_t last_count = count_;
     std::size_t vertices = 0, edges = 0;
+    for (const Task& task : tasks_) {
+        vertices += task.end_vertex - task.begin_vertex;
+        edges += task.end_edge - task.begin_edge;
+    }
+    for (PerWorker<Worker>& workers : workers_) // in a later step, one may find all
+        for (Worker& worker : workers) {
+            reserve_sparingly(worker.vertices, vertices);
+            reserve_sparingly(worker.edges, edges);
+        }
     count_ = carried_ = 0;
     runs_.clear();
     pairs_.clear();
@@ -352,14 +361,7 @@ void ShapeContacts::list_results(const StepScene& scene) {
             if (found.of_kind[VOX_CONSTRAINT_PROXIMITY] != found.count())
                 pairs_.back().state = VOX_PAIR_BEGAN;
         }
-        vertices += of_vertices.count();
-        edges += of_edges.count();
     }
-    for (PerWorker<Worker>& workers : workers_) // in a later step, one may find all
-        for (Worker& worker : workers) {
-            reserve_sparingly(worker.vertices, vertices);
-            reserve_sparingly(worker.edges, edges);
-        }
     is_unchanged_ = !changed_ && carried_ == count_ && carried_ == last_count &&
                     std::ranges::none_of(pairs_, [](const vox_pair& pair) {
                         return pair.state == VOX_PAIR_NEAR; // which Pairs::repeat() has none of
