@@ -109,6 +109,7 @@ NAVIGATION = [
             "docs/evidence/hard-scenes.md",
             "docs/evidence/cell-size.md",
             "docs/evidence/regret.md",
+            "docs/evidence/shapes.md",
             "docs/evidence/foreign-grids.md",
             "docs/evidence/paper.md",
             "docs/evidence/surface-pairs.md",
