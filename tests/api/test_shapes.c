@@ -1,5 +1,5 @@
-/* Rigid shapes: what is inside, gaps, normals, transforms, impacts, refusals. Examples that a reader can follow;
- * internal/test_shape_points.cpp and test_shape_steps.cpp have thousands. */
+/* Rigid shapes: what is inside, gaps, normals, transforms, impacts, refusals. Examples that a reader can
+ * follow; internal/test_shape_points.cpp and test_shape_steps.cpp have thousands. */
 #include "support/shape_checks.h"
 
 typedef struct seen_vertex {
@@ -45,8 +45,8 @@ static void check_seen(const vox_shape_desc* desc, const double* place, double m
             if (!c) continue;
             ck_assert_double_eq_tol(c->gap, v[i].gap, 1e-15);
             for (int k = 0; k < 3; ++k) {
-                ck_assert_msg(fabs(c->normal[k] - v[i].normal[k]) < 1e-13, "vertex %u: normal (%g, %g, %g)", i,
-                              c->normal[0], c->normal[1], c->normal[2]);
+                ck_assert_msg(fabs(c->normal[k] - v[i].normal[k]) < 1e-13, "vertex %u: normal (%g, %g, %g)",
+                              i, c->normal[0], c->normal[1], c->normal[2]);
                 ck_assert_double_eq(c->position[k], v[i].at[k]);
             }
             if (v[i].gap == 0) ck_assert(c->gap == 0);
@@ -66,20 +66,24 @@ static void check_seen(const vox_shape_desc* desc, const double* place, double m
     check_seen(desc, place, margin, vertices, (uint32_t)(sizeof vertices / sizeof *(vertices)), has_triangles)
 
 START_TEST(half_spaces) {
-    static const seen_vertex all[] = {
-        {{7, -3, 0}, INSIDE, 0, {0, 0, 1}},           {{1e6f, 1e6f, -2}, INSIDE, -2, {0, 0, 1}},
-        {{0, 0, 0.25}, NEAR_BY, 0.25, {0, 0, 1}},     {{0, 0, 0.25f + 1e-7f}, NONE, 0, {0, 0, 0}},
-        {{0, 0, 0x1p-149}, NEAR_BY, 0x1p-149, {0, 0, 1}}, {{-5, 2, -0x1p-149}, INSIDE, -0x1p-149, {0, 0, 1}}};
+    static const seen_vertex all[] = {{{7, -3, 0}, INSIDE, 0, {0, 0, 1}},
+                                      {{1e6f, 1e6f, -2}, INSIDE, -2, {0, 0, 1}},
+                                      {{0, 0, 0.25}, NEAR_BY, 0.25, {0, 0, 1}},
+                                      {{0, 0, 0.25f + 1e-7f}, NONE, 0, {0, 0, 0}},
+                                      {{0, 0, 0x1p-149}, NEAR_BY, 0x1p-149, {0, 0, 1}},
+                                      {{-5, 2, -0x1p-149}, INSIDE, -0x1p-149, {0, 0, 1}}};
     const vox_shape_desc floor = shape_desc(VOX_SHAPE_HALF_SPACE);
     CHECK_SEEN(&floor, NULL, 0.25, all, 0);
 }
 END_TEST
 
 START_TEST(round_shapes) {
-    static const seen_vertex of_ball[] = {
-        {{0, 0, 0}, INSIDE, -5, {0, 0, 1}},          {{3, 4, 0}, INSIDE, 0, {0.6, 0.8, 0}},
-        {{0, -3, -4}, INSIDE, 0, {0, -0.6, -0.8}},   {{6, 8, 0}, NEAR_BY, 5, {0.6, 0.8, 0}},
-        {{3, 4, 0x1p-20}, NEAR_BY, 0x1p-40 / 10, {0.6, 0.8, 0x1p-20 / 5}}, {{8, 8, 0}, NONE, 0, {0, 0, 0}}};
+    static const seen_vertex of_ball[] = {{{0, 0, 0}, INSIDE, -5, {0, 0, 1}},
+                                          {{3, 4, 0}, INSIDE, 0, {0.6, 0.8, 0}},
+                                          {{0, -3, -4}, INSIDE, 0, {0, -0.6, -0.8}},
+                                          {{6, 8, 0}, NEAR_BY, 5, {0.6, 0.8, 0}},
+                                          {{3, 4, 0x1p-20}, NEAR_BY, 0x1p-40 / 10, {0.6, 0.8, 0x1p-20 / 5}},
+                                          {{8, 8, 0}, NONE, 0, {0, 0, 0}}};
     static const seen_vertex of_capsule[] = {{{5, 0, 1}, INSIDE, 0, {1, 0, 0}},
                                              {{0, 0, 2}, INSIDE, -5, {1, 0, 0}},
                                              {{3, 0, 6}, INSIDE, 0, {0.6, 0, 0.8}},
@@ -103,12 +107,15 @@ END_TEST
 
 /* A box and the solid with the same surface. */
 START_TEST(boxes_and_solids) {
-    static const seen_vertex all[] = {
-        {{1, 0.25, 0}, INSIDE, 0, {1, 0, 0}},            {{0.5, 0.25, 0}, INSIDE, -0.5, {1, 0, 0}},
-        {{0.25, -0.75, 0}, INSIDE, -0.25, {0, -1, 0}},   {{0, 0.5, -1}, INSIDE, 0, {0, 0, -1}},
-        {{2, 0.5, 0.25}, NEAR_BY, 1, {1, 0, 0}},         {{1.75, 2, 0}, NEAR_BY, 1.25, {0.6, 0.8, 0}},
-        {{2, 3, 3}, NEAR_BY, 3, {1 / 3., 2 / 3., 2 / 3.}}, {{0.5, -0.5, 4.5}, NONE, 0, {0, 0, 0}},
-        {{1 + 0x1p-23, 0.25, 0}, NEAR_BY, 0x1p-23, {1, 0, 0}}};
+    static const seen_vertex all[] = {{{1, 0.25, 0}, INSIDE, 0, {1, 0, 0}},
+                                      {{0.5, 0.25, 0}, INSIDE, -0.5, {1, 0, 0}},
+                                      {{0.25, -0.75, 0}, INSIDE, -0.25, {0, -1, 0}},
+                                      {{0, 0.5, -1}, INSIDE, 0, {0, 0, -1}},
+                                      {{2, 0.5, 0.25}, NEAR_BY, 1, {1, 0, 0}},
+                                      {{1.75, 2, 0}, NEAR_BY, 1.25, {0.6, 0.8, 0}},
+                                      {{2, 3, 3}, NEAR_BY, 3, {1 / 3., 2 / 3., 2 / 3.}},
+                                      {{0.5, -0.5, 4.5}, NONE, 0, {0, 0, 0}},
+                                      {{1 + 0x1p-23, 0.25, 0}, NEAR_BY, 0x1p-23, {1, 0, 0}}};
     const vox_shape_desc box = box_shape(1, 1, 1), solid = cube_solid();
     CHECK_SEEN(&box, NULL, 3, all, 0);
     CHECK_SEEN(&solid, NULL, 3, all, 1);
@@ -143,13 +150,11 @@ END_TEST
 
 START_TEST(terrain) {
     static const double heights[6] = {0, 0, 1, 0, 2, 1};
-    static const seen_vertex all[] = {{{0, 0, 0}, INSIDE, 0, {0, 0, 1}},
-                                      {{1, 0, 0}, INSIDE, 0, {0, 0, 1}},
-                                      {{0.5, 0.125, -4}, INSIDE, -4, {0, 0, 1}},
-                                      {{0.5, 0.125, 3}, NONE, 0, {0, 0, 0}},
-                                      {{-0.25, 0, -1}, NONE, 0, {0, 0, 0}}, /* beside it */
-                                      {{2, 0, 1}, INSIDE, 0, {-1, 0, 1}},
-                                      {{2.25, 0.25, 0.5}, NONE, 0, {0, 0, 0}}};
+    static const seen_vertex all[] = {
+        {{0, 0, 0}, INSIDE, 0, {0, 0, 1}},         {{1, 0, 0}, INSIDE, 0, {0, 0, 1}},
+        {{0.5, 0.125, -4}, INSIDE, -4, {0, 0, 1}}, {{0.5, 0.125, 3}, NONE, 0, {0, 0, 0}},
+        {{-0.25, 0, -1}, NONE, 0, {0, 0, 0}}, /* beside it */
+        {{2, 0, 1}, INSIDE, 0, {-1, 0, 1}},        {{2.25, 0.25, 0.5}, NONE, 0, {0, 0, 0}}};
     vox_shape_desc desc = shape_desc(VOX_SHAPE_HEIGHTFIELD);
     desc.heights = heights;
     desc.columns = 3;
@@ -324,7 +329,8 @@ START_TEST(placed) {
     CHECK_SEEN(&solid, place, 1, of_solid, 1);
     /* Upside down is a rotation. */
     static const double down[12] = {1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0};
-    static const seen_vertex of_ceiling[] = {{{3, 3, 2}, INSIDE, -2, {0, 0, -1}}, {{0, 0, -2}, NONE, 0, {0, 0, 0}}};
+    static const seen_vertex of_ceiling[] = {{{3, 3, 2}, INSIDE, -2, {0, 0, -1}},
+                                             {{0, 0, -2}, NONE, 0, {0, 0, 0}}};
     CHECK_SEEN(&floor, down, 1, of_ceiling, 0);
 }
 END_TEST
@@ -355,7 +361,8 @@ START_TEST(refused_transforms) {
     const vox_body shape = insert_shape(grid, &floor), points = insert_points(grid, at, 1);
     ck_ok(vox_body_set_transform(grid, shape, nearly));
     for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
-        ck_fails(vox_body_set_transform(grid, shape, all[i].matrix), VOX_ERROR_INVALID_ARGUMENT, all[i].words);
+        ck_fails(vox_body_set_transform(grid, shape, all[i].matrix), VOX_ERROR_INVALID_ARGUMENT,
+                 all[i].words);
         ck_fails(vox_shape_set_previous_transform(grid, shape, all[i].matrix), VOX_ERROR_INVALID_ARGUMENT,
                  all[i].words);
     }
@@ -376,7 +383,8 @@ END_TEST
 
 /* The vertex, the shape, or both move by so much along z, from `from` on. Checks the impact: when, where to,
  * how far behind. */
-static void check_impact(const vox_shape_desc* desc, const double from[3], double way, double time, double up) {
+static void check_impact(const vox_shape_desc* desc, const double from[3], double way, double time,
+                         double up) {
     for (int who = 0; who < 3; ++who) {
         const double of_vertex = who == 0 ? way : who == 1 ? 0 : 0.25 * way;
         double to[3] = {from[0], from[1], from[2] + of_vertex}, before[12];
