@@ -108,11 +108,12 @@ void ShapeContacts::list_tasks(const StepScene& scene) {
             reserve_growing(tasks_, tasks_.size() + groups / task_groups + 1);
             if (!changed_ && !scene.of[a].moved && !has_previous(scene, a) && !placed_[p].moves) {
                 const std::tuple sought(body.mesh_id, shape.mesh_id);
-                const auto same =
-                    std::ranges::equal_range(std::span(all_).subspan(carried), sought, {}, place);
-                const auto first = static_cast<std::size_t>(same.begin() - std::span(all_).begin());
-                carried = first + same.size();
-                if (!same.empty()) tasks_.push_back({a, p, first, carried, true, 0, 0, 0, 0});
+                const auto rest = std::span(all_).subspan(carried);
+                const auto same = std::ranges::lower_bound(rest, sought, {}, place),
+                           end = std::ranges::upper_bound(rest, sought, {}, place);
+                const std::size_t first = carried + static_cast<std::size_t>(same - rest.begin());
+                carried += static_cast<std::size_t>(end - rest.begin());
+                if (same != end) tasks_.push_back({a, p, first, carried, true, 0, 0, 0, 0});
                 continue;
             }
             for (std::size_t first = 0; first < groups; first += task_groups)
