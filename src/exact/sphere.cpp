@@ -59,7 +59,7 @@ private:
         return sum;
     }
 
-    std::array<double, 9> part_{};
+    std::array<double, 10> part_{};
     std::size_t size_ = 0;
 };
 

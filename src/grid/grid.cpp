@@ -162,6 +162,7 @@ void vox_grid::scene_changed() noexcept {
 }
 
 void vox_grid::remove(vox_body id) {
+    if (body(id).shape()) contacts_hold_ = false; // without the stage of shapes, pairs are not looked at anew
     meshes_.remove(id);
     constraints_->forget(id);
     surfaces_.topology_changed(id);
@@ -254,6 +255,7 @@ void vox_grid::set_pair_enabled(vox_body a, vox_body b, bool enabled) {
 
 void vox_grid::bind_previous(vox_body id, const Positions& positions) {
     (void)mesh(id); // throws for an id that names no mesh
+    if (!positions.data) contacts_hold_ = false; // as in remove(), without impacts
     surfaces_.bind_previous(id, positions);
 }
 

@@ -30,7 +30,6 @@ double RigidShape::meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at) c
 
 namespace {
 
-constexpr double tolerance = ShapePlace::tolerance;
 constexpr double least_scale = 0x1p-100, most_scale = 0x1p100;
 
 constexpr double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};

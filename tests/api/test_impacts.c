@@ -414,6 +414,24 @@ START_TEST(filters_and_life) {
 }
 END_TEST
 
+/* At rest, a pair that had nothing but impacts ends with the last previous positions. */
+START_TEST(ends_without_previous) {
+    vox_grid* grid = impact_grid();
+    moving_body bodies[2] = {insert_moving(grid, make_box(2, 1, 0, 0, 0)),
+                             insert_moving(grid, make_box(1, 0.5f, 0.375f, 0.25f, 4))};
+    move_body(&bodies[1].now, 0, 0, -5);
+    for (int step = 0; step < 3; ++step) ck_ok(vox_grid_step(grid));
+    ck_assert_int_eq(pairs_of(grid).data[0].state, VOX_PAIR_PERSISTED);
+    for (int i = 0; i < 2; ++i) ck_ok(bind_previous_array(grid, bodies[i].id, NULL, VOX_FORMAT_FLOAT, 0, 0));
+    ck_ok(vox_grid_step(grid));
+    ck_assert_int_eq(pairs_of(grid).data[0].state, VOX_PAIR_ENDED);
+    ck_ok(vox_grid_step(grid));
+    ck_assert_uint_eq(pairs_of(grid).count, 0);
+    vox_grid_destroy(grid);
+    for (int i = 0; i < 2; ++i) free_moving(&bodies[i]);
+}
+END_TEST
+
 /* A vertex that went through and is still near the surface has one constraint, by what it went through. */
 START_TEST(impacts_within_the_margin) {
     vox_grid* grid = impact_grid();
@@ -572,8 +590,9 @@ END_TEST
 
 static void add_tests(TCase* tests) {
     tcase_add_each(tests, random_motions, plate_shot_through, in_and_out, formats_and_transforms,
-                   filters_and_life, impacts_within_the_margin, appended_vertices_end_it, arguments,
-                   workers_and_memory, far_and_slantwise, grazed_by_doubles);
+                   filters_and_life, ends_without_previous, impacts_within_the_margin,
+                   appended_vertices_end_it, arguments, workers_and_memory, far_and_slantwise,
+                   grazed_by_doubles);
 }
 
 SUITE(impacts) { add_for_each_engine(suite, add_tests); }

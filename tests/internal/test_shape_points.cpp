@@ -347,6 +347,11 @@ void add_surface(Sample& s, Random& random) {
             const std::uint32_t x = i & 1, y = 2 + (i >> 1 & 1), z = 4 + (i >> 2);
             s.triangles.push_back(((i ^ i >> 1 ^ i >> 2) & 1) ? Triangle{y, x, z} : Triangle{x, y, z});
         }
+        double volume = 0;
+        for (const Triangle& t : s.triangles)
+            volume += determinant(s.point(t[0]), s.point(t[1]), s.point(t[2]));
+        if (volume < 0) // inside out
+            for (Triangle& t : s.triangles) std::swap(t[0], t[1]);
         return;
     }
     constexpr std::uint32_t cubes = 3, lines = cubes + 1;

@@ -98,6 +98,14 @@ Shape any_shape(vox_shape_kind kind, double size, Random& random) {
         if (kind == VOX_SHAPE_SHEET && random.below(2)) // a needle beside
             for (const std::uint32_t v : {3u, 5u, 5u}) s.triangles.push_back(v);
     }
+    double volume = 0;
+    for (std::size_t t = 0; kind == VOX_SHAPE_SOLID && t < s.triangles.size(); t += 3) {
+        const auto corner = [&](std::size_t i) { return s.points.data() + 3 * s.triangles[t + i]; };
+        const auto vector = [](const double* p) { return Vec3d{p[0], p[1], p[2]}; };
+        volume += determinant(vector(corner(0)), vector(corner(1)), vector(corner(2)));
+    }
+    for (std::size_t t = 0; volume < 0 && t < s.triangles.size(); t += 3) // inside out
+        std::swap(s.triangles[t], s.triangles[t + 1]);
     static const double ring_radius = 1; // alike for all sizes
     d.field = ring;
     d.field_user = const_cast<double*>(&ring_radius);
