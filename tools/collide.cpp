@@ -1,4 +1,4 @@
-// vox collide: finds the contacts between two mesh files, or within one.
+// vox collide: finds the contacts between two mesh files, within one, or of them with rigid shapes.
 #include "body.hpp"
 #include "commands.hpp"
 #include "failure.hpp"
@@ -6,6 +6,7 @@
 #include "output_file.hpp"
 #include "report.hpp"
 #include "results_file.hpp"
+#include "rigid.hpp"
 #include "snapshot_file.hpp"
 #include "stepping.hpp"
 #include "terminal.hpp"
@@ -25,6 +26,7 @@ struct CollideOptions {
     std::vector<double> offset = {0, 0, 0};
     double scale = 1;
     bool keep_doubles = false;
+    RigidOptions rigid;
     GridOptions grid;
     std::uint32_t repeat = 1;
     std::uint64_t limit = 10;
@@ -33,15 +35,21 @@ struct CollideOptions {
     bool json = false;
 };
 
-// The vertices of either body, as "A 3 in B 0 1 2 3".
+// Of the meshes, then of the shapes.
+std::string letter(std::size_t place) {
+    return place < 26 ? std::string(1, static_cast<char>('A' + place)) : "#" + std::to_string(place);
+}
+std::string letter(const std::vector<vox_body>& ids, vox_body body) { return letter(place_of(ids, body)); }
+
+// The vertices of either body, as "A 3 in B 0 1 2 3"; a shape has none.
 std::string vertices_of(const vox_constraint& c, const std::vector<vox_body>& ids) {
     std::string words;
     for (std::uint32_t i = 0; i < c.count; ++i) {
         if (i == 0 || i == c.count_a)
-            words += std::string(i == 0 ? "" : " in ") +
-                     (place_of(ids, i == 0 ? c.body_a : c.body_b) == 0 ? "A" : "B");
+            words += (i == 0 ? "" : " in ") + letter(ids, i == 0 ? c.body_a : c.body_b);
         words += " " + std::to_string(c.vertices[i]);
     }
+    if (c.count == c.count_a) words += " in " + letter(ids, c.body_b);
     return words;
 }
 
@@ -77,7 +85,7 @@ void print_constraints(const CollideOptions& options, const vox_grid* grid,
 }
 
 // How many contacts and vertices, the deepest and where.
-void print_summary(const vox_grid* grid) {
+void print_summary(const vox_grid* grid, bool with_shapes) {
     const std::span<const vox_contact> contacts = contacts_of(grid);
     std::set<std::pair<vox_body, std::uint32_t>> vertices;
     for (const vox_contact& contact : contacts) vertices.insert({contact.body_a, contact.vertex});
@@ -86,8 +94,15 @@ void print_summary(const vox_grid* grid) {
                              contacts.size() == 1 ? "contact" : "contacts", vertices.size(),
                              vertices.size() == 1 ? "vertex" : "vertices");
     const vox_constraint* deepest = nullptr;
-    for (const vox_constraint& c : constraints_of(grid))
-        if (c.kind == VOX_CONSTRAINT_INSIDE && c.gap < (deepest ? deepest->gap : 0)) deepest = &c;
+    std::size_t in_shapes = 0;
+    for (const vox_constraint& c : constraints_of(grid)) {
+        if (c.kind != VOX_CONSTRAINT_INSIDE) continue;
+        if (c.count == c.count_a) ++in_shapes;
+        if (c.gap < (deepest ? deepest->gap : 0)) deepest = &c;
+    }
+    if (with_shapes)
+        used += std::snprintf(words + used, sizeof words - static_cast<std::size_t>(used),
+                              ", %zu with shapes", in_shapes);
     if (deepest)
         std::snprintf(words + used, sizeof words - static_cast<std::size_t>(used),
                       "; the deepest is %.4g inside, at (%.4g, %.4g, %.4g)", -deepest->gap,
@@ -101,22 +116,25 @@ void print_contacts(const CollideOptions& options, const vox_grid* grid, const s
         static_cast<std::size_t>(std::min<std::uint64_t>(contacts.size(), options.limit));
     if (shown > 0) std::printf("  %12s %14s\n", "vertex", "in tet");
     for (const vox_contact& contact : contacts.first(shown))
-        std::printf("  %c %10u   %c %10u\n", place_of(ids, contact.body_a) == 0 ? 'A' : 'B', contact.vertex,
-                    place_of(ids, contact.body_b) == 0 ? 'A' : 'B', contact.tet);
+        std::printf("  %s %10u   %s %10u\n", letter(ids, contact.body_a).c_str(), contact.vertex,
+                    letter(ids, contact.body_b).c_str(), contact.tet);
     print_rest(contacts.size() - shown);
 }
 
 void print_collide(const CollideOptions& options, const vox_grid* grid, const std::vector<Body>& bodies,
-                   const std::vector<vox_body>& ids, const Counters& times) {
+                   const std::vector<Rigid>& shapes, const std::vector<vox_body>& ids,
+                   const Counters& times) {
     const auto ms = [&](const char* name) { return static_cast<double>(value_of(times, name)) * 1e-6; };
     for (std::size_t i = 0; i < bodies.size(); ++i)
-        std::printf("%c  %s: %llu vertices, %llu tetrahedra%s\n", i == 0 ? 'A' : 'B',
+        std::printf("%s  %s: %llu vertices, %llu tetrahedra%s\n", letter(i).c_str(),
                     shown(bodies[i].name).c_str(), llu(bodies[i].view.vertex_count),
                     llu(bodies[i].view.tet_count),
                     bodies[i].view.tet_count > 0
                         ? ""
                         : " (a surface: its vertices collide, but it has no inside; --fill makes one)");
-    print_summary(grid);
+    for (std::size_t i = 0; i < shapes.size(); ++i)
+        std::printf("%s  %s\n", letter(bodies.size() + i).c_str(), name_of(shapes[i]).c_str());
+    print_summary(grid, !shapes.empty());
     if (options.no_depth) print_contacts(options, grid, ids);
     if (!options.no_depth || options.edges) print_constraints(options, grid, ids);
     std::printf("\nhash %s, cell size %.4g\n", hexadecimal(hash_of(grid)).c_str(), info_of(grid).cell_size);
@@ -156,8 +174,11 @@ void bind_previous(vox_grid* grid, vox_body mesh, const Body& body, const Body& 
 }
 
 void run_collide(const CollideOptions& options) {
-    if (options.b.empty() && !options.self)
-        throw WrongUsage("collide needs a second mesh, or --self for self-collision of the first");
+    const std::vector<Rigid> shapes = options.rigid.shapes();
+    if (options.b.empty() && !options.self && shapes.empty())
+        throw WrongUsage(
+            "collide needs a second mesh, --self for self-collision of the first, or a shape such "
+            "as --floor 0,0,1,0");
     if (!options.out.empty()) check_output(options.out, {".vtu", ".msh", ".html"});
     for (const std::string& path : {options.csv, options.save})
         if (!path.empty()) check_output(path);
@@ -168,7 +189,7 @@ void run_collide(const CollideOptions& options) {
             options.scale, {options.offset[0], options.offset[1], options.offset[2]}, options.keep_doubles};
         bodies.push_back(load_body(options.b, placement, options.reading));
     }
-    require_inside(bodies);
+    if (shapes.empty()) require_inside(bodies);
     Body before;
     if (!options.moving.empty())
         before = load_body(
@@ -185,6 +206,7 @@ void run_collide(const CollideOptions& options) {
         for (vox_mesh_desc& mesh : meshes) mesh.filter.flags |= VOX_FILTER_SELF_COLLISION;
     const Grid grid = make_grid(desc, meshes, ids);
     if (!options.moving.empty()) bind_previous(grid.get(), ids[0], bodies[0], before);
+    insert_rigid(grid.get(), shapes, ids);
     const Counters times = measure_steps(grid.get(), bodies, ids, options.repeat);
     if (options.no_depth) {
         vox_constraint_desc bare = vox_default_constraint_desc();
@@ -198,8 +220,10 @@ void run_collide(const CollideOptions& options) {
         for (std::size_t i = 0; i < bodies.size(); ++i) drawn.push_back(drawn_mesh(bodies[i], ids[i]));
         write_results(options.out, drawn, grid.get());
     }
-    if (!options.json) return print_collide(options, grid.get(), bodies, ids, times);
-    Json json = {{"meshes", body_list(bodies)}, {"cell_size", info_of(grid.get()).cell_size}};
+    if (!options.json) return print_collide(options, grid.get(), bodies, shapes, ids, times);
+    Json json = {{"meshes", body_list(bodies)},
+                 {"shapes", rigid_list(shapes)},
+                 {"cell_size", info_of(grid.get()).cell_size}};
     add_collision(json, grid.get(), ids, times);
     print(json);
 }
@@ -208,7 +232,8 @@ void run_collide(const CollideOptions& options) {
 
 void add_collide(CommandLine& line) {
     const auto options = std::make_shared<CollideOptions>();
-    Command command = line.add("collide", "Find the contacts between two meshes, or within one");
+    Command command =
+        line.add("collide", "Find the contacts between two meshes, within one, or with rigid shapes");
     command.option("A", options->a, "Mesh file").required();
     Option b = command.option("B", options->b, "Second mesh file");
     command.flag("--self", options->self, "Also find the contacts of a mesh with itself");
@@ -219,6 +244,7 @@ void add_collide(CommandLine& line) {
         .shown_as("FLOAT")
         .finite()
         .needs(b);
+    add_rigid(command, options->rigid);
     command.flag("--double", options->keep_doubles, "Keep positions in double instead of rounding to float");
     command
         .option("--margin", options->grid.desc.margin,
@@ -253,7 +279,8 @@ void add_collide(CommandLine& line) {
         .shown_as("FILE");
     command.flag("--json", options->json, "Print one JSON object");
     command.examples(
-        "  vox collide bunny.msh cow.msh --offset 0.5 0 0\n  vox collide body.msh --self -o contacts.html");
+        "  vox collide bunny.msh cow.msh --offset 0.5 0 0\n  vox collide body.msh --self -o contacts.html\n"
+        "  vox collide body.msh --floor 0,0,1,0 --sphere 0,0,1,0.5");
     command.runs([options] { run_collide(*options); });
 }
 

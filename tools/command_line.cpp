@@ -128,6 +128,8 @@ Option& Option::required() { return option_->required(), *this; }
 
 Option& Option::count(int values) { return option_->expected(values), *this; }
 
+Option& Option::each() { return option_->allow_extra_args(false), *this; }
+
 Option& Option::shown_as(const std::string& value) { return option_->type_name(value), *this; }
 
 Option& Option::needs(const Option& other) { return option_->needs(other.option_), *this; }

@@ -37,6 +37,7 @@ public:
 
     Option& required();
     Option& count(int values);                  // the number of values
+    Option& each();                             // one value each time, any number of times
     Option& shown_as(const std::string& value); // in the usage
     Option& needs(const Option& other);
     Option& excludes(const Option& other);

@@ -461,6 +461,53 @@ class CommandLine(Files):
             self.assertGreater(often["total_began"], 1)
             self.assertEqual(often["total_ended"], often["total_began"] - 1)
 
+    def test_collide_with_shapes(self):
+        # The tetrahedron with corners 0, and 1 along each axis.
+        placed = {"floor": ("0,0,2,1", [0, 1, 2], 0.5, [0, 0, 1]), "sphere": ("0,0,1,.25", [3], 0.25, None),
+                  "box": ("1,0,0,0.25,0.5,0.5", [1], 0.25, None), "capsule": ("-5,1,0,5,1,0,0.25", [2], 0.25, None)}
+        for kind, (numbers, vertices, depth, normal) in placed.items():
+            with self.subTest(kind=kind):
+                found = run_json("collide", self.one, f"--{kind}", numbers)
+                self.assertEqual(found["shapes"], [{"kind": kind, "numbers": [float(x) for x in numbers.split(",")]}])
+                self.assertEqual([c["vertices"] for c in found["constraints"]], [[v] for v in vertices])
+                for c in found["constraints"]:
+                    self.assertEqual((c["kind"], c["body_a"], c["body_b"], c["count_a"], c["weights"]), ("inside", 0, 1, 1, [1]))
+                    self.assertAlmostEqual(c["gap"], -depth, 12)
+                    self.assertEqual(c["normal"], normal or c["normal"])
+                self.assertEqual((found["contact_count"], len(found["meshes"])), (0, 1))
+
+        # Several of a kind, in the order of the kinds, after the meshes; options before the file.
+        found = run_json("collide", "--sphere", "0,0,0,0.1", "--sphere", "1,0,0,0.1", "--floor", "0,0,1,-9", self.one, self.one,
+                         "--offset", 0.1, 0.2, 0.3)
+        self.assertEqual([shape["kind"] for shape in found["shapes"]], ["floor", "sphere", "sphere"])
+        self.assertEqual({(c["body_a"], c["vertices"][0], c["body_b"]) for c in found["constraints"] if c["count_a"] == len(c["vertices"])},
+                         {(0, 0, 3), (0, 1, 4)})
+        self.assertGreater(found["contact_count"], 0)
+
+        # Tilted, against the distance from the plane; a surface alone; edges and margins.
+        found = run_json("collide", self.one, "--floor=-1,-2,-2,-1.5")
+        self.assertEqual({c["vertices"][0]: round(c["gap"], 12) for c in found["constraints"]}, {2: round(-0.5 / 3, 12), 3: round(-0.5 / 3, 12)})
+        self.assertEqual(len(run_json("collide", self.surface, "--floor", "0,0,1,0.5")["constraints"]), 3)
+        kinds = {c["kind"] for c in run_json("collide", self.one, "--box", "0.4,0.1,0,0.05,0.05,1", "--edges", "--margin", 1)["constraints"]}
+        self.assertEqual(kinds, {"edge", "proximity"})
+        text = run("collide", self.one, "--floor", "0,0,1,0.5", "--capsule", "0,0,1,0,0,1,0.25").stdout.decode()
+        self.assertIn("B  floor 0,0,1,0.5\nC  capsule 0,0,1,0,0,1,0.25\n\n0 contacts of 0 vertices, 4 with shapes; the deepest is 0.5 inside", text)
+        self.assertRegex(text, r"inside +-0\.25 .*A 3 in C\n")
+
+        # Results go into files: a line each, and the least gap of each vertex.
+        table, drawing = self.path("shapes.csv"), self.path("shapes.vtu")
+        run_json("collide", self.one, "--floor", "0,0,1,0.5", "--csv", table, "-o", drawing)
+        with open(table, encoding="ascii") as file:
+            self.assertEqual([line.split(",")[:5] for line in file][1:], [["inside", "closest", "0", "1", str(v)] for v in range(3)])
+        with open(drawing, encoding="ascii") as file:
+            self.assertIn('Name="gap"', file.read())
+        for arguments in (["--floor", "0,0,1"], ["--floor", "0,0,1,0,0"], ["--floor", "0,0,x,0"], ["--floor", "0,0,nan,0"], ["--floor", ""],
+                          ["--floor", "0,0,0,1"], ["--sphere", "0 0 0 1"], ["--sphere", "0,0,0,1,"], ["--box", "1,2,3"], ["--capsule", "1"]):
+            with self.subTest(arguments=arguments):
+                self.refused(2, arguments[0], "collide", self.one, *arguments)
+        self.refused(2, "or a shape such as --floor", "collide", self.one)
+        self.refused(1, "radius is -1", "collide", self.one, "--sphere", "0,0,0,-1")
+
     def test_collide_as_text(self):
         done = run("collide", self.two, self.two, "--limit", 2)
         text = done.stdout.decode()
