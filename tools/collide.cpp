@@ -35,7 +35,7 @@ struct CollideOptions {
     bool json = false;
 };
 
-// Of the meshes, then of the shapes.
+// Names meshes and shapes, in the order of their ids.
 std::string letter(std::size_t place) {
     return place < 26 ? std::string(1, static_cast<char>('A' + place)) : "#" + std::to_string(place);
 }

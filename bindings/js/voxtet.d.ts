@@ -324,8 +324,8 @@ export interface Grid extends Owned {
   /** Adds a mesh. Its arrays are copied. */
   add(mesh: MeshOptions): Mesh;
   /**
-   * Adds a rigid shape, which takes part from the next step on. The vertices of meshes collide with it. It has no vertices: its
-   * constraints have those of `bodyA` alone. What it returns is good wherever a shape has what a mesh has: transform,
+   * Adds a rigid shape, which takes part from the next step on. The vertices of meshes collide with it. Its
+   * constraints have vertices of `bodyA` alone. What it returns is good wherever a shape has what a mesh has: transform,
    * filter, user data, whether it is enabled; its `info.shape` is a ShapeKind. May change in any release.
    */
   addShape(shape: ShapeOptions): Mesh;

@@ -96,8 +96,8 @@ namespace Voxtet
 
     public sealed unsafe partial class Grid
     {
-        /// <summary>Adds a rigid shape, which takes part from the next step on. The vertices of meshes collide with it. It has no
-        /// vertices: its constraints have those of body_a alone. What is returned is good wherever a shape has what a mesh has:
+        /// <summary>Adds a rigid shape, which takes part from the next step on. The vertices of meshes collide with it. Its
+        /// constraints have vertices of body_a alone. What is returned is good wherever a shape has what a mesh has:
         /// transform, filter, user data, whether it is enabled. Experimental.</summary>
         public Mesh AddShape(Shape shape, ulong userData = 0, Filter filter = default(Filter))
         {
