@@ -153,6 +153,25 @@ class Bodies(unittest.TestCase):
             del kept
 
 
+class Adapters(unittest.TestCase):
+    def test_floor_of_newton(self):
+        """With what voxtet.newton asks of a model and a state."""
+        from types import SimpleNamespace
+        import voxtet.newton
+
+        positions, tets = box()
+        array = SimpleNamespace(numpy=lambda: positions, device=SimpleNamespace(is_cuda=False))
+        model = SimpleNamespace(tet_count=len(tets), particle_count=len(positions), tet_indices=SimpleNamespace(numpy=tets.ravel))
+        particles = voxtet.newton.Particles(model)
+        floor = particles.grid.add_shape(voxtet.HalfSpace(), transform=moved(z=.1))
+        found = particles.step(SimpleNamespace(particle_q=array)).find_constraints()
+        self.assertEqual((set(found.body_b), set(found.count)), ({floor.id}, {1}))
+        np.testing.assert_allclose(found.gap, positions[found.vertices[:, 0], 2] - .1)
+        rows = found.rows({particles.mesh: 0}, positions.size)
+        force = np.bincount(rows.indices, rows.data * np.repeat(-found.gap, 3), positions.size).reshape(-1, 3)
+        np.testing.assert_allclose(force, np.maximum(.1 - positions[:, 2:], 0) * [0, 0, 1], atol=1e-12)
+
+
 class Motion(unittest.TestCase):
     def test_impacts(self):
         grid = voxtet.Grid(constraints=True)
