@@ -143,8 +143,8 @@ export declare const ShapeKind: Readonly<{
   /** the inside of a closed surface: positions, triangles */
   SOLID: 7;
   /**
-   * what is within `radius` of triangles, such as a blade or a wall, or of segments, such as a needle, which are
-   * triangles that name a vertex twice
+   * what is within `radius` of triangles: a blade, a wall. A triangle that names a vertex twice is a segment of a
+   * needle: positions, triangles, radius
    */
   SHEET: 8;
   /** where a function of the caller is not positive: field, half_size */

@@ -152,8 +152,7 @@ namespace Voxtet
         Heightfield = 6,
         /// <summary>the inside of a closed surface: positions, triangles</summary>
         Solid = 7,
-        /// <summary>what is within `radius` of triangles, such as a blade or a wall, or of segments, such as a needle,
-        /// which are triangles that name a vertex twice</summary>
+        /// <summary>what is within `radius` of triangles: a blade, a wall.</summary>
         Sheet = 8,
         /// <summary>where a function of the caller is not positive: field, half_size</summary>
         Field = 9,
@@ -838,13 +837,12 @@ namespace Voxtet
         public uint* triangles;
         public ulong triangle_count;
         /// <summary>columns * rows numbers: z at x = column * spacing[0], y = row * spacing[1] is heights[row * columns
-        /// + column]; between them, two triangles with the diagonal from the lower left to the upper right</summary>
+        /// + column].</summary>
         public double* heights;
         public uint columns;
         public uint rows;
         public Double2 spacing;
-        /// <summary>Computes the distances of `count` points, x y z each, from the shape in its frame: for a point
-        /// outside at most the true distance, up to rounding; for a point inside not above 0.</summary>
+        /// <summary>Computes the distances of `count` points, x y z each, from the shape in its frame.</summary>
         public IntPtr field;
         /// <summary>passed to `field` as `user`</summary>
         public IntPtr field_user;

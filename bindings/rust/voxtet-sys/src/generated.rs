@@ -167,8 +167,8 @@ pub const VOX_SHAPE_BOX: vox_shape_kind = 5;
 pub const VOX_SHAPE_HEIGHTFIELD: vox_shape_kind = 6;
 /// the inside of a closed surface: positions, triangles
 pub const VOX_SHAPE_SOLID: vox_shape_kind = 7;
-/// what is within `radius` of triangles, such as a blade or a wall, or of segments, such as a needle, which are
-/// triangles that name a vertex twice
+/// what is within `radius` of triangles: a blade, a wall. A triangle that names a vertex twice is a segment of a
+/// needle: positions, triangles, radius
 pub const VOX_SHAPE_SHEET: vox_shape_kind = 8;
 /// where a function of the caller is not positive: field, half_size
 pub const VOX_SHAPE_FIELD: vox_shape_kind = 9;
@@ -689,17 +689,17 @@ pub struct vox_shape_desc {
     /// 3 * triangle_count vertex indices; of a SOLID counter-clockwise as seen from outside
     pub triangles: *const u32,
     pub triangle_count: u64,
-    /// columns * rows numbers: z at x = column * spacing[0], y = row * spacing[1] is heights[row * columns + column];
-    /// between them, two triangles with the diagonal from the lower left to the upper right
+    /// columns * rows numbers: z at x = column * spacing[0], y = row * spacing[1] is heights[row * columns + column]. A
+    /// cell is two triangles, divided from the lower left to the upper right
     pub heights: *const f64,
     pub columns: u32,
     pub rows: u32,
     pub spacing: [f64; 2],
     #[rustfmt::skip]
-    /// Computes the distances of `count` points, x y z each, from the shape in its frame: for a point outside at most
-    /// the true distance, up to rounding; for a point inside not above 0. Gradients, x y z each, point out of the
-    /// shape; their length does not matter. Steps call it on several threads at once, with at most 8 points. It must
-    /// not call the grid.
+    /// Computes the distances of `count` points, x y z each, from the shape in its frame. For a point outside it is at
+    /// most the true distance, up to rounding; for a point inside it is not above 0. Gradients, x y z each, point out
+    /// of the shape; their length does not matter. Steps call it on several threads at once, with at most 8 points. It
+    /// must not call the grid.
     pub field: Option<unsafe extern "C" fn(points: *const f64, count: u64, distances: *mut f64, gradients: *mut f64, user: *mut c_void)>,
     /// passed to `field` as `user`
     pub field_user: *mut c_void,
@@ -1837,14 +1837,17 @@ extern "C" {
         capacity: u64,
         out_count: *mut u64,
     ) -> vox_result;
-    /// Adds a shape, which takes part from the next step on. The vertices of meshes collide with it; shapes do not
-    /// collide with each other. A shape has pairs and constraints, but no contacts, and is always body_b of a
-    /// constraint. A vertex is looked at in the shape's frame, where its place is computed in double. Whether that
-    /// place is in the shape is decided exactly for all kinds but FIELD and a SHEET with a radius. Surfaces belong to
-    /// shapes. The gap is the exact distance rounded once for HALF_SPACE, SPHERE and BOX, unless the shape is scaled;
-    /// within a few units in the last place for the others, where the vertex is not much closer than the size of its
-    /// coordinates. Errors: INVALID_ARGUMENT, INVALID_MESH (e.g. an open SOLID), NON_FINITE, LIMIT, BUDGET,
-    /// OUT_OF_MEMORY.
+    /// Adds a shape, which takes part from the next step on. The vertices of meshes collide with it. With
+    /// VOX_GRID_EDGES, so do their edges and faces, with the flat sides of a BOX, HEIGHTFIELD, SOLID or SHEET. Shapes
+    /// do not collide with each other. A shape has pairs and constraints, but no contacts, and is always body_b. A
+    /// vertex is looked at in the shape's frame, where its place is computed in double. Whether that place is in the
+    /// shape is decided exactly, but for a FIELD and a SHEET with a radius. The surface is part of the shape. The gap
+    /// of a HALF_SPACE, SPHERE or BOX is off by at most one unit in the last place, unless the shape is scaled. The gap
+    /// of others is rounded in proportion to the coordinates. An EDGE constraint has the two vertices of an edge of the
+    /// mesh, or the three of a face that an edge of the shape passes through. An edge of the mesh is as deep as the
+    /// middle of its part in the shape. A SHEET has no inside: the shorter part of the edge has to leave. A face has to
+    /// move until the middle of the part behind it is on its plane. Errors: INVALID_ARGUMENT, INVALID_MESH (e.g. an
+    /// open SOLID), NON_FINITE, LIMIT, BUDGET, OUT_OF_MEMORY.
     pub fn vox_shape_insert(
         grid: *mut vox_grid,
         desc: *const vox_shape_desc,
