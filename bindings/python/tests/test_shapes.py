@@ -1,5 +1,6 @@
 """Rigid shapes: each kind, what its constraints say, where it is and was."""
 
+import copy
 import gc
 import unittest
 
@@ -143,6 +144,14 @@ class Bodies(unittest.TestCase):
         with self.assertRaisesRegex(voxtet.InvalidHandleError, f"no body {second.id}"):
             c.rows({self.box: 0, self.floor: 99})
 
+    def test_copies(self):
+        with copy.deepcopy(self.grid) as other:
+            self.assertEqual([(shape.id, shape.kind) for shape in other.shapes], [(self.floor.id, voxtet.ShapeKind.HALF_SPACE)])
+            np.testing.assert_array_equal(other.shapes[0].transform, moved(z=.1))
+            for grid in (self.grid, other):
+                grid.step()
+            self.assertEqual(other.constraints.tobytes(), self.grid.constraints.tobytes())
+
     def test_borrowed_arrays(self):
         self.grid.step()
         with self.grid.borrowed() as results:
@@ -226,6 +235,8 @@ class Fields(unittest.TestCase):
         grid, _ = self.grid_of(lambda points: (seen.append(points), ball(points))[1])
         grid.step()
         self.assertTrue(all(len(points) <= 8 and points.flags.owndata for points in seen))
+        with self.assertRaisesRegex(voxtet.VoxError, "function cannot be saved"):
+            copy.deepcopy(grid)
 
 
 if __name__ == "__main__":
