@@ -8,11 +8,7 @@ namespace vox {
 // |p| - radius, off by at most one unit in its last place, however close p is to the sphere. Coordinates and
 // radius are below 2^400.
 double distance_to_sphere(const Vec3d& p, double radius) noexcept;
-<<<<<<< HEAD
-// Distance of a point from the box around the origin, for a point outside or on it; off by as little.
-=======
 // The distance to the box around the origin, for a point outside or on it, with the same error.
->>>>>>> 90300d90e4e082e54a0954d9910d80a745546264
 double distance_to_box(const Vec3d& p, const Vec3d& half_size) noexcept;
 
 } // namespace vox

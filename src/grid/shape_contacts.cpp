@@ -106,7 +106,6 @@ void ShapeContacts::list_tasks(const StepScene& scene, KeptFeatures& kept) {
             if (!collide(body, shape)) continue;
             reserve_growing(tasks_, tasks_.size() + groups / task_groups + 2);
             if (!changed_ && !scene.of[a].moved && !has_previous(scene, a) && !placed_[p].moves) {
-<<<<<<< HEAD
                 const auto is_before = [&](const ShapeRun& run) {
                     return std::tie(run.body_a, run.body_b) < std::tie(body.mesh_id, shape.mesh_id);
                 };
@@ -116,15 +115,6 @@ void ShapeContacts::list_tasks(const StepScene& scene, KeptFeatures& kept) {
                        runs_[carried].body_b == shape.mesh_id)
                     ++carried;
                 if (first != carried) tasks_.push_back({a, p, first, carried, Does::carry, 0, 0, 0, 0, 0, 0});
-=======
-                const std::tuple sought(body.mesh_id, shape.mesh_id);
-                const auto rest = std::span(all_).subspan(carried);
-                const auto same = std::ranges::lower_bound(rest, sought, {}, place),
-                           end = std::ranges::upper_bound(rest, sought, {}, place);
-                const std::size_t first = carried + static_cast<std::size_t>(same - rest.begin());
-                carried += static_cast<std::size_t>(end - rest.begin());
-                if (same != end) tasks_.push_back({a, p, first, carried, true, 0, 0, 0, 0});
->>>>>>> 90300d90e4e082e54a0954d9910d80a745546264
                 continue;
             }
             for (std::size_t first = 0; first < groups; first += task_groups)

@@ -41,11 +41,7 @@ public:
 
     // Returns false if p is further outside than `reach`, which is not negative; `out` is unspecified then.
     virtual bool look(const Vec3d& p, double reach, ShapePoint& out) const = 0;
-<<<<<<< HEAD
-    // Looks at most_points points or fewer. Returns a bit for each.
-=======
     // Looks from at most most_points points. Returns a bit for each.
->>>>>>> 90300d90e4e082e54a0954d9910d80a745546264
     static constexpr std::size_t most_points = 8;
     virtual std::uint32_t look(std::span<const Vec3d> points, double reach, ShapePoint* out) const;
     // True only if all points within `radius` of `centre` are outside, and further away than `reach`.
@@ -74,11 +70,7 @@ std::shared_ptr<const RigidShape> make_shape(const vox_shape_desc& desc, std::pm
 class ShapePlace {
 public:
     ShapePlace() noexcept : ShapePlace(nullptr) {}
-<<<<<<< HEAD
-    // The matrix is that given to vox_body_set_transform; null: the shape stands as it was given.
-=======
     // A matrix of vox_body_set_transform; null: the shape is where it was given.
->>>>>>> 90300d90e4e082e54a0954d9910d80a745546264
     explicit ShapePlace(const double* matrix) noexcept;
 
     // Throws INVALID_ARGUMENT for a matrix that is not of this kind.

@@ -196,14 +196,12 @@ void check_closed(std::span<const ShapeTriangle> triangles, std::pmr::memory_res
 
 ClosedSurface::ClosedSurface(Array<Vec3d>&& points, Array<ShapeTriangle>&& triangles)
     : TriangleShape(VOX_SHAPE_SOLID, std::move(points), std::move(triangles), 0) {
-<<<<<<< HEAD
     check_closed(facets_.triangles, facets_.triangles.memory());
-=======
-    check_closed(triangles_, triangles_.memory());
     double volume = 0, size = 0; // six times
-    for (const auto& [a, b, c] : triangles_) {
-        const Vec3d& from = points_[triangles_[0][0]];
-        const double part = determinant(points_[a] - from, points_[b] - from, points_[c] - from);
+    for (const auto& [a, b, c] : facets_.triangles) {
+        const Vec3d& from = facets_.points[facets_.triangles[0][0]];
+        const double part =
+            determinant(facets_.points[a] - from, facets_.points[b] - from, facets_.points[c] - from);
         volume += part;
         size += std::abs(part);
     }
@@ -211,7 +209,6 @@ ClosedSurface::ClosedSurface(Array<Vec3d>&& points, Array<ShapeTriangle>&& trian
         throw Error(VOX_ERROR_INVALID_MESH, format("the volume is %g: the triangles of a SOLID have to be "
                                                    "counter-clockwise as seen from outside",
                                                    volume / 6));
->>>>>>> 90300d90e4e082e54a0954d9910d80a745546264
 }
 
 // How often the surface goes around p: its triangles above p, each with the sign of the side that it shows
