@@ -252,7 +252,7 @@ void vox_grid::set_pair_enabled(vox_body a, vox_body b, bool enabled) {
 }
 
 void vox_grid::bind_previous(vox_body id, const Positions& positions) {
-    (void)mesh(id); // throws for an id that names no mesh
+    (void)mesh(id);                              // throws for an id that names no mesh
     if (!positions.data) contacts_hold_ = false; // as in remove(), without impacts
     surfaces_.bind_previous(id, positions);
 }

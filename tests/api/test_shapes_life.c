@@ -235,7 +235,8 @@ START_TEST(meshes_and_shapes) {
     ck_fails(vox_mesh_replace_tets(s.grid, s.floor, index, 1, index), wrong, words);
     ck_fails(vox_mesh_set_tets_enabled(s.grid, s.floor, index, 1, 0), wrong, words);
     ck_fails(vox_mesh_get_tets(s.grid, s.floor, NULL, NULL, 0, &count), wrong, words);
-    ck_fails(vox_shape_set_previous_transform(s.grid, s.points, unmoved), wrong, "is a mesh, expected a shape");
+    ck_fails(vox_shape_set_previous_transform(s.grid, s.points, unmoved), wrong,
+             "is a mesh, expected a shape");
     ck_fails(vox_shape_set_previous_transform(s.grid, 99, unmoved), VOX_ERROR_INVALID_HANDLE, "99");
     ck_fails(vox_shape_set_previous_transform(NULL, s.floor, unmoved), wrong, "grid");
     ck_assert_int_eq(stepped_pair(s.grid), VOX_PAIR_BEGAN);
@@ -530,9 +531,9 @@ START_TEST(byte_budget) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_each(tests, events, parted, order_and_user_data, warm_start, removed_vertices, meshes_and_shapes,
-                   bad_descriptions, field_that_fails, bad_bodies_are_skipped, steady_state_allocates_nothing,
-                   every_allocation_fails, byte_budget);
+    tcase_add_each(tests, events, parted, order_and_user_data, warm_start, removed_vertices,
+                   meshes_and_shapes, bad_descriptions, field_that_fails, bad_bodies_are_skipped,
+                   steady_state_allocates_nothing, every_allocation_fails, byte_budget);
 }
 
 SUITE(shapes_life) { add_for_each_engine(suite, add_tests); }
