@@ -138,7 +138,7 @@ export declare const ShapeKind: Readonly<{
   CYLINDER: 4;
   /** around the origin: half_size */
   BOX: 5;
-  /** terrain, solid below: heights, columns, rows, spacing */
+  /** terrain, solid below, without walls at its ends: heights, columns, rows, spacing */
   HEIGHTFIELD: 6;
   /** the inside of a closed surface: positions, triangles */
   SOLID: 7;

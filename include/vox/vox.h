@@ -599,7 +599,7 @@ typedef enum vox_shape_kind {
     VOX_SHAPE_CAPSULE = 3,     /* along the z axis, around the origin: radius, half_length */
     VOX_SHAPE_CYLINDER = 4,    /* likewise, with flat ends */
     VOX_SHAPE_BOX = 5,         /* around the origin: half_size */
-    VOX_SHAPE_HEIGHTFIELD = 6, /* terrain, solid below: heights, columns, rows, spacing */
+    VOX_SHAPE_HEIGHTFIELD = 6, /* terrain, solid below, without walls at its ends: heights, columns, rows, spacing */
     VOX_SHAPE_SOLID = 7,       /* the inside of a closed surface: positions, triangles */
     VOX_SHAPE_SHEET = 8,       /* what is within `radius` of triangles: a blade, a wall. A triangle that names a vertex
                                   twice is a segment of a needle: positions, triangles, radius */

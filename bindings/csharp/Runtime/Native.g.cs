@@ -148,7 +148,7 @@ namespace Voxtet
         Cylinder = 4,
         /// <summary>around the origin: half_size</summary>
         Box = 5,
-        /// <summary>terrain, solid below: heights, columns, rows, spacing</summary>
+        /// <summary>terrain, solid below, without walls at its ends: heights, columns, rows, spacing</summary>
         Heightfield = 6,
         /// <summary>the inside of a closed surface: positions, triangles</summary>
         Solid = 7,

@@ -163,7 +163,7 @@ pub const VOX_SHAPE_CAPSULE: vox_shape_kind = 3;
 pub const VOX_SHAPE_CYLINDER: vox_shape_kind = 4;
 /// around the origin: half_size
 pub const VOX_SHAPE_BOX: vox_shape_kind = 5;
-/// terrain, solid below: heights, columns, rows, spacing
+/// terrain, solid below, without walls at its ends: heights, columns, rows, spacing
 pub const VOX_SHAPE_HEIGHTFIELD: vox_shape_kind = 6;
 /// the inside of a closed surface: positions, triangles
 pub const VOX_SHAPE_SOLID: vox_shape_kind = 7;
@@ -1961,7 +1961,7 @@ extern "C" {
     /// Writes a grid to `bytes`, in a format that is the same on every machine (docs/snapshot.md): settings, bodies
     /// with their ids and positions, and which pairs touch. It does not contain allocator, log, tasks, worker_count,
     /// byte_budget, margin, previous positions and results. *out_size is the number of bytes; with `bytes` null nothing
-    /// is written. Errors: INVALID_ARGUMENT (the capacity is too small).
+    /// is written. Errors: INVALID_ARGUMENT (the capacity is too small), INVALID_STATE (a shape with a FIELD).
     pub fn vox_grid_save(
         grid: *const vox_grid,
         bytes: *mut c_void,
