@@ -363,7 +363,7 @@ void ShapeContacts::list_results(const StepScene& scene) {
         }
     }
     is_unchanged_ = !changed_ && carried_ == count_ && carried_ == last_count &&
-                    std::ranges::none_of(pairs_, [](const vox_pair& pair) {
+                    std::none_of(pairs_.begin(), pairs_.end(), [](const vox_pair& pair) {
                         return pair.state == VOX_PAIR_NEAR; // which Pairs::repeat() has none of
                     });
     std::ranges::sort(pairs_, {}, ids_of);

@@ -65,7 +65,7 @@ private:
             at[v] = pair_.place.to_shape(mesh_.positions.exact(vertex(tile, v)));
         std::uint64_t exact_tests = 0;
         for (std::uint32_t e = tile.first_edge; e < tile.first_edge + tile.edge_count; ++e) {
-            auto [u, v] = features_.edges[e];
+            std::uint8_t u = features_.edges[e][0], v = features_.edges[e][1]; // which lambdas can capture
             if (vertex(tile, v) < vertex(tile, u)) std::swap(u, v);
             const Vec3d lo = min(at[u], at[v]), hi = max(at[u], at[v]);
             if (!is_in_reach(lo, hi)) continue;

@@ -36,7 +36,13 @@ Vec3d across(const Vec3d& v) noexcept {
 TriangleShape::TriangleShape(vox_shape_kind kind, Array<Vec3d>&& points, Array<ShapeTriangle>&& triangles,
                              double radius)
     : RigidShape(kind, bounds_of(points, radius)), facets_(std::move(points), std::move(triangles)),
-      radius_(radius) {}
+      radius_(radius), topology_(facets_.triangles.memory()), closest_tree_(facets_.triangles.memory()) {
+    if (kind == VOX_SHAPE_SHEET) return; // which encloses nothing
+    topology_.triangles.reserve(facets_.triangles.size());
+    for (const auto& [a, b, c] : facets_.triangles) topology_.triangles.push_back({{a, b, c}, a});
+    const Positions positions{reinterpret_cast<const std::byte*>(facets_.points.data()), sizeof(Vec3d), true};
+    closest_tree_.update({&topology_, {}, positions}, false, nullptr);
+}
 
 vox_shape_desc TriangleShape::desc() const noexcept {
     vox_shape_desc desc = vox_default_shape_desc();
@@ -75,10 +81,31 @@ void TriangleShape::look_at(const Vec3d& p, std::uint32_t triangle, bool is_encl
         out.normal = across(largest_coordinate(b - a) > 0 ? b - a : c - a);
 }
 
-bool TriangleShape::look(const Vec3d& p, double reach, ShapePoint& out) const {
+std::uint32_t TriangleShape::look(std::span<const Vec3d> points, double reach, ShapePoint* out) const {
+    depth::SearchState state;
+    std::uint32_t found = 0;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        found |= std::uint32_t{look(points[i], reach, state, out[i])} << i;
+    return found;
+}
+
+bool TriangleShape::look(const Vec3d& p, double reach, depth::SearchState& state, ShapePoint& out) const {
     const bool is_enclosed = encloses(p), is_on = radius_ == 0 && is_on_surface(p);
-    const double far = is_enclosed || is_on ? unlimited : (reach + radius_) * (1 + 0x1p-40);
-    double most = far * far; // distance, squared
+    depth::Closest closest;
+    closest.at.triangle = VOX_NONE;
+    if (is_enclosed)
+        (void)closest_tree_.find(p, depth::SurfaceTree::no_vertex, state, closest);
+    else
+        closest.at.triangle = nearest_in_reach(p, is_on ? unlimited : (reach + radius_) * (1 + 0x1p-40));
+    if (closest.at.triangle == VOX_NONE) return false;
+    look_at(p, closest.at.triangle, is_enclosed, out);
+    out.is_inside = is_enclosed || is_on || (radius_ > 0 && out.distance <= 0);
+    if (is_on) out.distance = 0;
+    return out.distance <= reach;
+}
+
+std::uint32_t TriangleShape::nearest_in_reach(const Vec3d& p, double reach) const {
+    double most = reach * reach;
     std::uint32_t nearest = VOX_NONE;
     facets_.triangle_tree.visit_nearest_first(
         most, [&](const Box3f& box) { return squared_distance_bound(p, box); },
@@ -90,11 +117,7 @@ bool TriangleShape::look(const Vec3d& p, double reach, ShapePoint& out) const {
             most = squared;
             nearest = triangle;
         });
-    if (nearest == VOX_NONE) return false;
-    look_at(p, nearest, is_enclosed, out);
-    out.is_inside = is_enclosed || is_on || (radius_ > 0 && out.distance <= 0);
-    if (is_on) out.distance = 0;
-    return out.distance <= reach;
+    return nearest;
 }
 
 // Without a triangle near, all points above and below the bounds are inside if one is: terrain has no

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "base/array.hpp"
+#include "depth/closest.hpp"
+#include "mesh/topology.hpp"
 #include "shape/facets.hpp"
 #include "shape/shape.hpp"
 
@@ -12,7 +14,11 @@ namespace vox {
 
 class TriangleShape : public RigidShape {
 public:
-    bool look(const Vec3d& p, double reach, ShapePoint& out) const final;
+    bool look(const Vec3d& p, double reach, ShapePoint& out) const final {
+        depth::SearchState state;
+        return look(p, reach, state, out);
+    }
+    std::uint32_t look(std::span<const Vec3d> points, double reach, ShapePoint* out) const final;
     bool is_beyond(const Vec3d& centre, double radius, double reach) const final;
     double meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at) const final;
     vox_shape_desc desc() const noexcept override;
@@ -32,8 +38,12 @@ protected:
 
     ShapeFacets facets_;
     double radius_;
+    Topology topology_;               // the triangles alone
+    depth::SurfaceTree closest_tree_; // over all of them, for points that are enclosed
 
 private:
+    bool look(const Vec3d& p, double reach, depth::SearchState& state, ShapePoint& out) const;
+    std::uint32_t nearest_in_reach(const Vec3d& p, double reach) const;
     void look_at(const Vec3d& p, std::uint32_t triangle, bool is_enclosed, ShapePoint& out) const noexcept;
 };
 

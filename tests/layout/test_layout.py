@@ -11,10 +11,9 @@ from repository import ROOT, files, text_of
 LEVELS = [
     ["base"],
     ["exact"],
-    ["shape"],
     ["mesh"],
     ["reference", "fast", "depth"],
-    ["query"],
+    ["query", "shape"],
     ["cell_size"],
     ["surface"],
     ["grid"],
