@@ -234,7 +234,7 @@ struct ShapeContacts::Search {
                 hi = max(hi, p);
             }
         const Vec3d half = 0.5 * (hi - lo);
-        return shape.is_beyond(lo + half, length(half) * (1 + 0x1p-40), reach);
+        return is_beyond(lo + half, length(half) * (1 + 0x1p-40));
     }
     // When a vertex met the shape on its way, and how far it is behind the plane there.
     double meeting(const Vec3d& from, const Vec3d& to, ShapePoint& met) const {
