@@ -285,7 +285,7 @@ void ShapeContacts::run(const StepScene& scene, KeptFeatures& kept, Task& task, 
     } else if (task.does == Does::edges) {
         const Placed& placed = placed_[task.placed];
         find_shape_edges({scene, task.body, *placed.shape, placed.now, box_of(scene, task.body, placed)},
-                         kept.of(scene, task.body), out.edges);
+                         kept.of(scene, task.body), out.crossings, out.edges);
     } else {
         for (const ShapeRun& from : std::span(runs_).subspan(task.first, task.last - task.first)) {
             reserve_growing(out.vertices, out.vertices.size() + from.vertices.size());
@@ -316,6 +316,7 @@ void ShapeContacts::find(const StepScene& scene, KeptFeatures& kept) {
                                       run(scene, kept, task, workers[w]);
                                   }
                               });
+    workers.level();
     now_ = 1 - now_;
     list_results(scene);
     check_contact_count(count_, "contacts with shapes");

@@ -119,11 +119,13 @@ private:
         std::size_t begin_vertex, end_vertex, begin_edge, end_edge; // in that worker's lists
     };
     struct Worker {
-        explicit Worker(std::pmr::memory_resource* memory) : vertices(memory), edges(memory) {}
-        auto buffers() { return std::tie(vertices, edges); }
+        explicit Worker(std::pmr::memory_resource* memory)
+            : vertices(memory), edges(memory), crossings(memory) {}
+        auto buffers() { return std::tie(vertices, edges, crossings.of_mesh, crossings.of_shape); }
 
         Array<ShapeVertex> vertices;
         Array<ShapeEdge> edges;
+        ShapeCrossings crossings;
     };
     struct Search;
 

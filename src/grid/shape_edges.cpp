@@ -19,23 +19,15 @@ namespace vox {
 
 namespace {
 
-// Where an edge, of the mesh or of the shape, passes through a triangle of the other.
-struct Crossed {
-    std::uint32_t edge[2];     // of the shape: its number and 0
-    std::uint32_t vertices[3]; // of the face, if it is the mesh's
-    std::uint32_t element;
-    double at; // from 0 to 1 along the edge
-    double face_weights[3];
-    bool is_through;
-    Vec3d from, to;       // of the edge
-    Vec3d corner, normal; // of the triangle, out of what it belongs to
-};
-
 class EdgeSearch {
 public:
-    EdgeSearch(const ShapePair& of, const SurfaceFeatures& features, Array<ShapeEdge>& to)
+    EdgeSearch(const ShapePair& of, const SurfaceFeatures& features, ShapeCrossings& buffers,
+               Array<ShapeEdge>& to)
         : pair_(of), mesh_(of.scene.bodies[of.body]), facets_(*of.shape.facets()), features_(features),
-          out_(to), of_mesh_(to.memory()), of_shape_(to.memory()) {}
+          out_(to), of_mesh_(buffers.of_mesh), of_shape_(buffers.of_shape) {
+        of_mesh_.clear();
+        of_shape_.clear();
+    }
 
     void run() {
         const std::size_t first = out_.size();
@@ -59,79 +51,78 @@ private:
         return overlap(around, pair_.box);
     }
 
+    static auto overlaps(const Vec3d& lo, const Vec3d& hi) noexcept {
+        const Box3f around{rounded_box(lo).min, rounded_box(hi).max};
+        return [around](const Box3f& other) { return overlap(around, other); };
+    }
+
     void search(const SurfaceTile& tile) {
-        std::array<Vec3d, SurfaceTile::most_vertices> at;
         for (std::uint32_t v = 0; v < tile.vertex_count; ++v)
-            at[v] = pair_.place.to_shape(mesh_.positions.exact(vertex(tile, v)));
-        std::uint64_t exact_tests = 0;
+            at_[v] = pair_.place.to_shape(mesh_.positions.exact(vertex(tile, v)));
         for (std::uint32_t e = tile.first_edge; e < tile.first_edge + tile.edge_count; ++e) {
-            std::uint8_t u = features_.edges[e][0], v = features_.edges[e][1]; // which lambdas can capture
+            auto [u, v] = features_.edges[e];
             if (vertex(tile, v) < vertex(tile, u)) std::swap(u, v);
-            const Vec3d lo = min(at[u], at[v]), hi = max(at[u], at[v]);
-            if (!is_in_reach(lo, hi)) continue;
-            const Box3f around = box_around(lo, hi);
-            facets_.triangle_tree.visit_accepted([&](const Box3f& other) { return overlap(around, other); },
-                                                 [&](std::uint32_t t) {
-                                                     const ShapeTriangle& triangle = facets_.triangles[t];
-                                                     const Vec3d &a = facets_.corner(triangle, 0),
-                                                                 &b = facets_.corner(triangle, 1),
-                                                                 &c = facets_.corner(triangle, 2);
-                                                     const Crossing met =
-                                                         find_crossing(at[u], at[v], a, b, c, exact_tests);
-                                                     if (met.kind == CrossingKind::none) return;
-                                                     add(of_mesh_, {{vertex(tile, u), vertex(tile, v)},
-                                                                    {},
-                                                                    t,
-                                                                    met.edge_weights[1],
-                                                                    {},
-                                                                    met.kind == CrossingKind::through,
-                                                                    at[u],
-                                                                    at[v],
-                                                                    a,
-                                                                    triangle_normal(a, b, c)});
-                                                 });
+            search_edge({vertex(tile, u), vertex(tile, v)}, at_[u], at_[v]);
         }
-        for (std::uint32_t f = tile.first_face; f < tile.first_face + tile.face_count; ++f) {
-            const auto& [u, v, w] = features_.faces[f];
-            const Vec3d lo = min(min(at[u], at[v]), at[w]), hi = max(max(at[u], at[v]), at[w]);
-            if (!is_in_reach(lo, hi)) continue;
-            const Box3f around = box_around(lo, hi);
-            const std::array<std::uint8_t, 3> corners = outward(tile, f);
-            const Vec3d &a = at[corners[0]], &b = at[corners[1]], &c = at[corners[2]];
-            facets_.edge_tree.visit_accepted([&](const Box3f& other) { return overlap(around, other); },
-                                             [&](std::uint32_t e) {
-                                                 const ShapeFacets::Edge& edge = facets_.edges[e];
-                                                 const Vec3d &from = facets_.points[edge.ends[0]],
-                                                             &to = facets_.points[edge.ends[1]];
-                                                 const Crossing met =
-                                                     find_crossing(from, to, a, b, c, exact_tests);
-                                                 if (met.kind == CrossingKind::none) return;
-                                                 Crossed crossed{{e, 0},
-                                                                 {},
-                                                                 edge.triangle,
-                                                                 met.edge_weights[1],
-                                                                 {},
-                                                                 met.kind == CrossingKind::through,
-                                                                 from,
-                                                                 to,
-                                                                 a,
-                                                                 triangle_normal(a, b, c)};
-                                                 for (std::size_t i = 0; i < 3; ++i) {
-                                                     crossed.vertices[i] = vertex(tile, corners[i]);
-                                                     crossed.face_weights[i] = met.face_weights[i];
-                                                 }
-                                                 add(of_shape_, crossed);
-                                             });
-        }
+        for (std::uint32_t f = tile.first_face; f < tile.first_face + tile.face_count; ++f)
+            search_face(tile, f);
+    }
+
+    void search_edge(const std::array<std::uint32_t, 2>& edge, const Vec3d& from, const Vec3d& to) {
+        const Vec3d lo = min(from, to), hi = max(from, to);
+        if (!is_in_reach(lo, hi)) return;
+        const auto meet = [&](std::uint32_t t) {
+            const ShapeTriangle& triangle = facets_.triangles[t];
+            const Vec3d &a = facets_.corner(triangle, 0), &b = facets_.corner(triangle, 1),
+                        &c = facets_.corner(triangle, 2);
+            if (ShapeCrossing* const crossing = cross(from, to, a, b, c, of_mesh_)) {
+                crossing->edge = edge;
+                crossing->element = t;
+            }
+        };
+        facets_.triangle_tree.visit_accepted(overlaps(lo, hi), meet);
+    }
+
+    void search_face(const SurfaceTile& tile, std::uint32_t face) {
+        const auto& [u, v, w] = features_.faces[face];
+        const Vec3d lo = min(min(at_[u], at_[v]), at_[w]), hi = max(max(at_[u], at_[v]), at_[w]);
+        if (!is_in_reach(lo, hi)) return;
+        const std::array<std::uint8_t, 3> corners = outward(tile, face);
+        const auto meet = [&](std::uint32_t e) {
+            const ShapeFacets::Edge& edge = facets_.edges[e];
+            if (ShapeCrossing* const crossing =
+                    cross(facets_.points[edge.ends[0]], facets_.points[edge.ends[1]], at_[corners[0]],
+                          at_[corners[1]], at_[corners[2]], of_shape_)) {
+                crossing->edge = {e, 0};
+                crossing->element = edge.triangle;
+                for (std::size_t i = 0; i < 3; ++i) crossing->vertices[i] = vertex(tile, corners[i]);
+            }
+        };
+        facets_.edge_tree.visit_accepted(overlaps(lo, hi), meet);
+    }
+
+    // Adds the crossing of an edge and a triangle, without what it is of; null if they do not meet.
+    static ShapeCrossing* cross(const Vec3d& from, const Vec3d& to, const Vec3d& a, const Vec3d& b,
+                                const Vec3d& c, Array<ShapeCrossing>& out) {
+        std::uint64_t exact_tests = 0;
+        const Crossing met = find_crossing(from, to, a, b, c, exact_tests);
+        if (met.kind == CrossingKind::none) return nullptr;
+        reserve_growing(out, out.size() + 1);
+        ShapeCrossing& crossing = out.emplace_back();
+        crossing.at = met.edge_weights[1];
+        crossing.face_weights = met.face_weights;
+        crossing.is_through = met.kind == CrossingKind::through;
+        crossing.from = from;
+        crossing.to = to;
+        crossing.corner = a;
+        crossing.normal = triangle_normal(a, b, c);
+        return &crossing;
     }
 
     bool is_in_reach(const Vec3d& lo, const Vec3d& hi) const noexcept {
         const RigidShape::Bounds& all = pair_.shape.bounds();
         return (lo.x <= all.max.x) & (lo.y <= all.max.y) & (lo.z <= all.max.z) & (hi.x >= all.min.x) &
                (hi.y >= all.min.y) & (hi.z >= all.min.z);
-    }
-    static Box3f box_around(const Vec3d& lo, const Vec3d& hi) noexcept {
-        return {rounded_box(lo).min, rounded_box(hi).max};
     }
     std::uint32_t vertex(const SurfaceTile& tile, std::uint32_t index) const noexcept {
         return features_.vertices[tile.first_vertex + index];
@@ -149,25 +140,17 @@ private:
             std::swap(corners[1], corners[2]);
         return corners;
     }
-    static void add(Array<Crossed>& to, const Crossed& crossed) {
-        reserve_growing(to, to.size() + 1);
-        to.push_back(crossed);
-    }
-
     // Calls visit(crossed, before, after) for the crossings of each edge, with where the one before and the
     // one after are.
     template <class Visit>
-    static void for_each_crossing(Array<Crossed>& all, const Visit& visit) {
-        const auto key = [](const Crossed& c) {
-            return std::tuple(c.edge[0], c.edge[1], c.at, c.element, c.vertices[0], c.vertices[1],
-                              c.vertices[2]);
+    static void for_each_crossing(Array<ShapeCrossing>& all, const Visit& visit) {
+        const auto key = [](const ShapeCrossing& c) {
+            return std::tuple(c.edge, c.at, c.element, c.vertices);
         };
         std::sort(all.begin(), all.end(),
-                  [&](const Crossed& a, const Crossed& b) { return key(a) < key(b); });
+                  [&](const ShapeCrossing& a, const ShapeCrossing& b) { return key(a) < key(b); });
         for (std::size_t i = 0; i < all.size(); ++i) {
-            const auto is_same_edge = [&](std::size_t j) {
-                return all[j].edge[0] == all[i].edge[0] && all[j].edge[1] == all[i].edge[1];
-            };
+            const auto is_same_edge = [&](std::size_t j) { return all[j].edge == all[i].edge; };
             std::size_t before = i, after = i; // on edges, several triangles are met at once
             while (before > 0 && is_same_edge(before) && all[before].at >= all[i].at) --before;
             while (after + 1 < all.size() && is_same_edge(after) && all[after].at <= all[i].at) ++after;
@@ -179,7 +162,7 @@ private:
     // An edge of the mesh is as deep as the middle of its part inside the shape. A sheet has no inside: the
     // shorter part of the edge has to leave.
     void list_mesh_edges() {
-        for_each_crossing(of_mesh_, [&](const Crossed& c, double before, double after) {
+        for_each_crossing(of_mesh_, [&](const ShapeCrossing& c, double before, double after) {
             ShapeEdge contact = start(c, 2);
             contact.vertices[0] = c.edge[0];
             contact.vertices[1] = c.edge[1];
@@ -207,22 +190,20 @@ private:
     // An edge of the shape, too, but in front of the plane of the face that it passes through: the face has
     // to move that way.
     void list_shape_edges() {
-        for_each_crossing(of_shape_, [&](const Crossed& c, double before, double after) {
+        for_each_crossing(of_shape_, [&](const ShapeCrossing& c, double before, double after) {
             ShapeEdge contact = start(c, 3);
-            std::copy_n(c.vertices, 3, contact.vertices);
-            std::copy_n(c.face_weights, 3, contact.weights);
-            contact.normal[0] = contact.normal[1] = contact.normal[2] = 0;
+            std::ranges::copy(c.vertices, contact.vertices);
+            std::ranges::copy(c.face_weights, contact.weights);
             const Vec3d way = c.to - c.from;
             const double middle = dot(c.normal, way) > 0 ? 0.5 * (before + c.at) : 0.5 * (c.at + after);
             const double depth = c.is_through ? -dot(c.normal, c.from + middle * way - c.corner) : 0;
-            set(contact, depth > 0 ? VOX_DEPTH_PLANE : VOX_DEPTH_TOUCHING, std::max(depth, 0.0),
-                -1.0 * c.normal);
+            set(contact, VOX_DEPTH_PLANE, std::max(depth, 0.0), -1.0 * c.normal);
             push(contact);
         });
     }
 
     // At first they only touch.
-    ShapeEdge start(const Crossed& c, std::uint32_t count) const noexcept {
+    ShapeEdge start(const ShapeCrossing& c, std::uint32_t count) const noexcept {
         ShapeEdge contact{};
         contact.count = count;
         contact.element = c.element;
@@ -245,13 +226,15 @@ private:
     const ShapeFacets& facets_;
     const SurfaceFeatures& features_;
     Array<ShapeEdge>& out_;
-    Array<Crossed> of_mesh_, of_shape_;
+    Array<ShapeCrossing>&of_mesh_, &of_shape_;
+    std::array<Vec3d, SurfaceTile::most_vertices> at_; // of a tile, in the shape's frame
 };
 
 } // namespace
 
-void find_shape_edges(const ShapePair& pair, const SurfaceFeatures& features, Array<ShapeEdge>& out) {
-    EdgeSearch(pair, features, out).run();
+void find_shape_edges(const ShapePair& pair, const SurfaceFeatures& features, ShapeCrossings& buffers,
+                      Array<ShapeEdge>& out) {
+    EdgeSearch(pair, features, buffers, out).run();
 }
 
 } // namespace vox

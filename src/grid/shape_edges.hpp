@@ -7,7 +7,9 @@
 
 #include <vox/vox.h>
 
+#include <array>
 #include <cstdint>
+#include <memory_resource>
 
 namespace vox {
 
@@ -22,6 +24,25 @@ struct ShapeEdge {
     double normal[3];
 };
 
+// Where an edge, of the mesh or of the shape, passes through a triangle of the other.
+struct ShapeCrossing {
+    std::array<std::uint32_t, 2> edge;     // of the shape: its number and 0
+    std::array<std::uint32_t, 3> vertices; // of the face, if it is the mesh's
+    std::uint32_t element;
+    double at; // from 0 to 1 along the edge
+    std::array<double, 3> face_weights;
+    bool is_through;
+    Vec3d from, to;       // of the edge
+    Vec3d corner, normal; // of the triangle, out of what it belongs to
+};
+
+// Buffers kept from step to step.
+struct ShapeCrossings {
+    explicit ShapeCrossings(std::pmr::memory_resource* memory) noexcept : of_mesh(memory), of_shape(memory) {}
+
+    Array<ShapeCrossing> of_mesh, of_shape; // of edges of either
+};
+
 // A mesh and a shape in one step.
 struct ShapePair {
     const StepScene& scene;
@@ -33,6 +54,7 @@ struct ShapePair {
 
 // Appends the contacts of edges, sorted by vertices and then by element; `features` are those of the mesh.
 // Decided exactly for the places of vertices in the shape's frame.
-void find_shape_edges(const ShapePair& pair, const SurfaceFeatures& features, Array<ShapeEdge>& out);
+void find_shape_edges(const ShapePair& pair, const SurfaceFeatures& features, ShapeCrossings& buffers,
+                      Array<ShapeEdge>& out);
 
 } // namespace vox

@@ -442,6 +442,7 @@ START_TEST(steady_state_allocates_nothing) {
     for (uint32_t workers = 1; workers <= 3; workers += 2) {
         ledger l = {0};
         vox_grid_desc desc = counted_desc(&l);
+        desc.flags |= VOX_GRID_EDGES;
         desc.worker_count = workers;
         vox_grid* grid = grid_of(&desc);
         body ball = make_lattice_ball(&five_cut, 5, 5);
