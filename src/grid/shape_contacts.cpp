@@ -209,7 +209,7 @@ struct ShapeContacts::Search {
         for (std::size_t i = 0; i < count; ++i) {
             const bool is_near = (found >> i & 1) != 0, is_inside = is_near && seen[i].is_inside;
             ShapePoint met;
-            const double met_at = moves ? meeting(from[i], at[i], met) : no_shape_meeting;
+            const double met_at = moves ? meeting(from[i], at[i], met) : no_meeting;
             if (is_inside)
                 add(vertex[i], VOX_CONSTRAINT_INSIDE, seen[i], met_at <= 1 ? met_at : 1);
             else if (met_at <= 1 && met.distance < 0)
@@ -239,7 +239,7 @@ struct ShapeContacts::Search {
     // When a vertex met the shape on its way, and how far it is behind the plane there.
     double meeting(const Vec3d& from, const Vec3d& to, ShapePoint& met) const {
         ShapePoint start;
-        if (shape.look(from, 0, start) && start.is_inside) return no_shape_meeting;
+        if (shape.look(from, 0, start) && start.is_inside) return no_meeting;
         const double time = shape.meeting(from, to, met);
         if (time <= 1) met.distance = dot(met.normal, (1 - time) * (to - from));
         return time;

@@ -19,7 +19,7 @@ void Snapshot::check(const vox_grid& grid) {
 void Snapshot::save_shapes(const vox_grid& grid, SnapshotWriter& out) {
     for_each_mesh(grid, [&](vox_body id, const Mesh& mesh) {
         if (!mesh.shape()) return;
-        const vox_shape_desc desc = mesh.shape()->desc();
+        const vox_shape_desc& desc = mesh.shape()->desc();
         const auto* const points = static_cast<const double*>(desc.positions.data);
         out.begin_chunk("SHAP");
         out.u32(id);

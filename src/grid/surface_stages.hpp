@@ -34,7 +34,8 @@ public:
     bool any() const noexcept { return kept_.has_value(); }
     // Those of meshes.
     bool reads_surfaces() const noexcept {
-        return std::get<0>(stages_) || std::get<1>(stages_) || margin_ > 0;
+        return std::get<std::optional<EdgeContacts>>(stages_) || std::get<std::optional<Impacts>>(stages_) ||
+               std::get<std::optional<Proximities>>(stages_);
     }
     double margin() const noexcept { return margin_; }
 

@@ -88,10 +88,9 @@ Array<Vec3d> read_heights(const vox_shape_desc& desc, std::pmr::memory_resource*
     return points;
 }
 
-Vec3d read_half_size(const vox_shape_desc& desc) {
+void check_half_size(const vox_shape_desc& desc) {
     const char* const names[3] = {"half_size[0]", "half_size[1]", "half_size[2]"};
     for (int i = 0; i < 3; ++i) check_length(desc.half_size[i], names[i]);
-    return vector_of(desc.half_size);
 }
 
 template <class Made, class... Arguments>
@@ -108,30 +107,32 @@ std::shared_ptr<const RigidShape> make_shape(const vox_shape_desc& desc, std::pm
     case VOX_SHAPE_NONE:
         break;
     case VOX_SHAPE_HALF_SPACE:
-        return made<HalfSpace>(memory);
+        return made<HalfSpace>(memory, desc);
     case VOX_SHAPE_SPHERE:
         check_length(desc.radius, "radius");
-        return made<Capsule>(memory, desc.kind, desc.radius, 0.0);
+        return made<Capsule>(memory, desc);
     case VOX_SHAPE_CAPSULE:
         check_length(desc.radius, "radius");
         check_length(desc.half_length, "half_length");
-        return made<Capsule>(memory, desc.kind, desc.radius, desc.half_length);
+        return made<Capsule>(memory, desc);
     case VOX_SHAPE_CYLINDER:
         check_length(desc.radius, "radius");
         check_length(desc.half_length, "half_length");
-        return made<Cylinder>(memory, desc.radius, desc.half_length);
+        return made<Cylinder>(memory, desc);
     case VOX_SHAPE_BOX:
-        return made<BoxShape>(memory, read_half_size(desc), memory);
+        check_half_size(desc);
+        return made<BoxShape>(memory, desc, memory);
     case VOX_SHAPE_HEIGHTFIELD:
-        return made<Heightfield>(memory, read_heights(desc, memory), desc);
+        return made<Heightfield>(memory, desc, read_heights(desc, memory));
     case VOX_SHAPE_SOLID:
-        return made<ClosedSurface>(memory, read_points(desc, memory), read_triangles(desc, memory));
+        return made<ClosedSurface>(memory, desc, read_points(desc, memory), read_triangles(desc, memory));
     case VOX_SHAPE_SHEET:
         check_length(desc.radius, "radius");
-        return made<Sheet>(memory, read_points(desc, memory), read_triangles(desc, memory), desc.radius);
+        return made<Sheet>(memory, desc, read_points(desc, memory), read_triangles(desc, memory));
     case VOX_SHAPE_FIELD:
         if (!desc.field) refuse("shape field is null, expected a function");
-        return made<Field>(memory, desc.field, desc.field_user, read_half_size(desc));
+        check_half_size(desc);
+        return made<Field>(memory, desc);
     }
     refuse("shape kind is VOX_SHAPE_NONE, expected a shape");
 }

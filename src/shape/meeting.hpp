@@ -23,8 +23,8 @@ double convex_meeting(const Vec3d& from, const Vec3d& to, const Look& look, Shap
         look(from + time * way, seen);
         if (plane == 0 || seen.distance > close) at = seen; // else rounding turns the normal
         const double speed = -dot(at.normal, way);
-        if (!(seen.distance > close)) return plane > 0 || speed > 0 ? time : no_shape_meeting;
-        if (!(speed > 0 && time + seen.distance / speed * shorter <= 1)) return no_shape_meeting;
+        if (!(seen.distance > close)) return plane > 0 || speed > 0 ? time : no_meeting;
+        if (!(speed > 0 && time + seen.distance / speed * shorter <= 1)) return no_meeting;
         time += seen.distance / speed * shorter;
     }
     return time;

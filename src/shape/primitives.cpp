@@ -29,11 +29,10 @@ Vec3d direction(const Vec3d& v, const Vec3d& otherwise) noexcept {
     return unit.x == 0 && unit.y == 0 && unit.z == 0 ? otherwise : unit;
 }
 
-// With no numbers yet.
-vox_shape_desc desc_of(vox_shape_kind kind) noexcept {
-    vox_shape_desc desc = vox_default_shape_desc();
-    desc.kind = kind;
-    return desc;
+// The box of half_size.
+RigidShape::Bounds around(const vox_shape_desc& desc) noexcept {
+    const Vec3d half = vector_of(desc.half_size);
+    return {-1.0 * half, half};
 }
 
 double sign_of(double x) noexcept { return x < 0 ? -1 : 1; }
@@ -42,47 +41,41 @@ double sign_of(double x) noexcept { return x < 0 ? -1 : 1; }
 
 // ---- half-space -----------------------------------------------------------------------------------
 
-HalfSpace::HalfSpace() noexcept
-    : PointByPoint(VOX_SHAPE_HALF_SPACE, {{-unlimited, -unlimited, -unlimited}, {unlimited, unlimited, 0}}) {}
+HalfSpace::HalfSpace(const vox_shape_desc& desc) noexcept
+    : PointByPoint(desc, {{-unlimited, -unlimited, -unlimited}, {unlimited, unlimited, 0}}) {}
 
 bool HalfSpace::look(const Vec3d& p, double reach, ShapePoint& out) const {
     out.normal = {0, 0, 1};
     return decide(p.z <= 0, p.z, reach, out);
 }
 
-vox_shape_desc HalfSpace::desc() const noexcept { return desc_of(kind()); }
-
 // ---- sphere and capsule ---------------------------------------------------------------------------
 
-Capsule::Capsule(vox_shape_kind kind, double radius, double half_length) noexcept
-    : PointByPoint(kind, {{-radius, -radius, -half_length - radius}, {radius, radius, half_length + radius}}),
-      radius_(radius), half_length_(half_length) {}
-
-bool Capsule::look(const Vec3d& p, double reach, ShapePoint& out) const {
-    const Vec3d centre{0, 0, std::clamp(p.z, -half_length_, half_length_)}, way = p - centre;
-    const double far = length(way) * (1 - 0x1p-40) - radius_;
-    if (far > reach) return false;
-    out.normal = direction(way, half_length_ > 0 ? Vec3d{1, 0, 0} : Vec3d{0, 0, 1});
-    return decide(side_of_sphere(p, centre, radius_) <= 0, distance_to_sphere(way, radius_), reach, out);
+Capsule::Capsule(const vox_shape_desc& desc) noexcept : PointByPoint(desc, {}) {
+    if (kind() == VOX_SHAPE_SPHERE) desc_.half_length = 0;
+    const double across = desc.radius, along = desc_.half_length + across;
+    bounds_ = {{-across, -across, -along}, {across, across, along}};
 }
 
-vox_shape_desc Capsule::desc() const noexcept {
-    vox_shape_desc desc = desc_of(kind());
-    desc.radius = radius_;
-    desc.half_length = half_length_;
-    return desc;
+bool Capsule::look(const Vec3d& p, double reach, ShapePoint& out) const {
+    const Vec3d centre{0, 0, std::clamp(p.z, -desc_.half_length, desc_.half_length)}, way = p - centre;
+    const double far = length(way) * (1 - 0x1p-40) - desc_.radius;
+    if (far > reach) return false;
+    out.normal = direction(way, desc_.half_length > 0 ? Vec3d{1, 0, 0} : Vec3d{0, 0, 1});
+    return decide(side_of_sphere(p, centre, desc_.radius) <= 0, distance_to_sphere(way, desc_.radius), reach,
+                  out);
 }
 
 // ---- cylinder and box -----------------------------------------------------------------------------
 
-Cylinder::Cylinder(double radius, double half_length) noexcept
-    : PointByPoint(VOX_SHAPE_CYLINDER, {{-radius, -radius, -half_length}, {radius, radius, half_length}}),
-      radius_(radius), half_length_(half_length) {}
+Cylinder::Cylinder(const vox_shape_desc& desc) noexcept
+    : PointByPoint(desc, {{-desc.radius, -desc.radius, -desc.half_length},
+                          {desc.radius, desc.radius, desc.half_length}}) {}
 
 bool Cylinder::look(const Vec3d& p, double reach, ShapePoint& out) const {
     const Vec3d flat{p.x, p.y, 0}, end{0, 0, sign_of(p.z)}, side = direction(flat, {1, 0, 0});
-    const double across = distance_to_sphere(flat, radius_), along = std::abs(p.z) - half_length_;
-    const bool is_inside = side_of_sphere(flat, {0, 0, 0}, radius_) <= 0 && along <= 0;
+    const double across = distance_to_sphere(flat, desc_.radius), along = std::abs(p.z) - desc_.half_length;
+    const bool is_inside = side_of_sphere(flat, {0, 0, 0}, desc_.radius) <= 0 && along <= 0;
     if (is_inside) {
         out.normal = across >= along ? side : end;
         return decide(true, std::max(across, along), reach, out);
@@ -91,13 +84,6 @@ bool Cylinder::look(const Vec3d& p, double reach, ShapePoint& out) const {
     const Vec3d normal = direction(way, {1, 0, 0});
     out.normal = normal.x * side + normal.y * end;
     return decide(false, Stretch(way).length, reach, out);
-}
-
-vox_shape_desc Cylinder::desc() const noexcept {
-    vox_shape_desc desc = desc_of(kind());
-    desc.radius = radius_;
-    desc.half_length = half_length_;
-    return desc;
 }
 
 namespace {
@@ -124,12 +110,11 @@ ShapeFacets box_facets(const Vec3d& half, std::pmr::memory_resource* memory) {
 
 } // namespace
 
-BoxShape::BoxShape(const Vec3d& half_size, std::pmr::memory_resource* memory)
-    : PointByPoint(VOX_SHAPE_BOX, {-1.0 * half_size, half_size}), half_size_(half_size),
-      facets_(box_facets(half_size, memory)) {}
+BoxShape::BoxShape(const vox_shape_desc& desc, std::pmr::memory_resource* memory)
+    : PointByPoint(desc, around(desc)), facets_(box_facets(bounds().max, memory)) {}
 
 bool BoxShape::look(const Vec3d& p, double reach, ShapePoint& out) const {
-    const double at[3] = {p.x, p.y, p.z}, half[3] = {half_size_.x, half_size_.y, half_size_.z};
+    const double at[3] = {p.x, p.y, p.z}, (&half)[3] = desc_.half_size;
     double beyond[3], normal[3] = {};
     int nearest = 0;
     for (int i = 0; i < 3; ++i) {
@@ -144,19 +129,12 @@ bool BoxShape::look(const Vec3d& p, double reach, ShapePoint& out) const {
     }
     for (int i = 0; i < 3; ++i) normal[i] = beyond[i] > 0 ? sign_of(at[i]) * beyond[i] : 0;
     out.normal = Stretch(vector_of(normal)).direction;
-    return decide(false, distance_to_box(p, half_size_), reach, out);
-}
-
-vox_shape_desc BoxShape::desc() const noexcept {
-    vox_shape_desc desc = desc_of(kind());
-    desc.half_size[0] = half_size_.x, desc.half_size[1] = half_size_.y, desc.half_size[2] = half_size_.z;
-    return desc;
+    return decide(false, distance_to_box(p, bounds().max), reach, out);
 }
 
 // ---- field ----------------------------------------------------------------------------------------
 
-Field::Field(Evaluate* evaluate, void* user, const Vec3d& half_size) noexcept
-    : RigidShape(VOX_SHAPE_FIELD, {-1.0 * half_size, half_size}), evaluate_(evaluate), user_(user) {}
+Field::Field(const vox_shape_desc& desc) noexcept : RigidShape(desc, around(desc)) {}
 
 std::uint32_t Field::look(std::span<const Vec3d> points, double reach, ShapePoint* out) const {
     std::array<double, 3 * most_points> at{}, gradients{};
@@ -164,7 +142,7 @@ std::uint32_t Field::look(std::span<const Vec3d> points, double reach, ShapePoin
     for (std::size_t i = 0; i < points.size(); ++i) {
         at[3 * i] = points[i].x, at[3 * i + 1] = points[i].y, at[3 * i + 2] = points[i].z;
     }
-    evaluate_(at.data(), points.size(), distances.data(), gradients.data(), user_);
+    desc_.field(at.data(), points.size(), distances.data(), gradients.data(), desc_.field_user);
     std::uint32_t found = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
         const Vec3d gradient{gradients[3 * i], gradients[3 * i + 1], gradients[3 * i + 2]};
@@ -193,19 +171,10 @@ double Field::meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at) const 
         (void)look({&p, 1}, unlimited, &at);
         if (!(at.distance > close) && dot(at.normal, way) < 0) return time;
         const double free = std::max(at.distance, close); // where it begins at the surface, too, and leaves
-        if (!(time * all + free < all)) return no_shape_meeting;
+        if (!(time * all + free < all)) return no_meeting;
         time += free / all;
     }
     return time;
-}
-
-vox_shape_desc Field::desc() const noexcept {
-    vox_shape_desc desc = desc_of(kind());
-    const Vec3d& half = bounds().max;
-    desc.half_size[0] = half.x, desc.half_size[1] = half.y, desc.half_size[2] = half.z;
-    desc.field = evaluate_;
-    desc.field_user = user_;
-    return desc;
 }
 
 } // namespace vox

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/scene.hpp"
+#include "exact/meeting_time.hpp"
 
 #include <vox/vox.h>
 
@@ -23,7 +24,6 @@ struct ShapePoint {
     std::uint32_t element; // the triangle that has the closest point; VOX_NONE without triangles
 };
 
-inline constexpr double no_shape_meeting = 2;
 inline constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 struct ShapeFacets;
@@ -36,7 +36,10 @@ public:
 
     virtual ~RigidShape() = default;
 
-    vox_shape_kind kind() const noexcept { return kind_; }
+    vox_shape_kind kind() const noexcept { return desc_.kind; }
+    // A desc of which make_shape() makes the same shape, with views of its arrays. A heightfield has
+    // positions in place of heights.
+    const vox_shape_desc& desc() const noexcept { return desc_; }
     const Bounds& bounds() const noexcept { return bounds_; }
 
     // Returns false if p is further outside than `reach`, which is not negative; `out` is unspecified then.
@@ -47,18 +50,21 @@ public:
     // True only if all points within `radius` of `centre` are outside, and further away than `reach`.
     virtual bool is_beyond(const Vec3d& centre, double radius, double reach) const;
     // When a point that moves in a straight line, and begins outside, first meets the shape: from 0 to 1 and
-    // never too late, with what it sees there; no_shape_meeting if it never does.
+    // never too late, with what it sees there; no_meeting if it never does.
     virtual double meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at) const;
-    // A desc of which make_shape() makes the same shape, with views of its arrays. A heightfield has
-    // positions in place of heights.
-    virtual vox_shape_desc desc() const noexcept = 0;
     // Flat sides, which edges of meshes pass through; null for a shape without.
     virtual const ShapeFacets* facets() const noexcept { return nullptr; }
 
 protected:
-    RigidShape(vox_shape_kind kind, const Bounds& bounds) noexcept : kind_(kind), bounds_(bounds) {}
+    // Keeps the numbers of the desc, not the caller's arrays.
+    RigidShape(const vox_shape_desc& desc, const Bounds& bounds) noexcept : desc_(desc), bounds_(bounds) {
+        desc_.positions = {};
+        desc_.triangles = nullptr;
+        desc_.heights = nullptr;
+        desc_.triangle_count = 0;
+    }
 
-    vox_shape_kind kind_;
+    vox_shape_desc desc_;
     Bounds bounds_;
 };
 
@@ -69,7 +75,6 @@ std::shared_ptr<const RigidShape> make_shape(const vox_shape_desc& desc, std::pm
 // Where a shape is: a rotation, one scale for all axes, and a translation.
 class ShapePlace {
 public:
-    ShapePlace() noexcept : ShapePlace(nullptr) {}
     // A matrix of vox_body_set_transform; null: the shape is where it was given.
     explicit ShapePlace(const double* matrix) noexcept;
 

@@ -33,25 +33,17 @@ Vec3d across(const Vec3d& v) noexcept {
 
 } // namespace
 
-TriangleShape::TriangleShape(vox_shape_kind kind, Array<Vec3d>&& points, Array<ShapeTriangle>&& triangles,
-                             double radius)
-    : RigidShape(kind, bounds_of(points, radius)), facets_(std::move(points), std::move(triangles)),
+TriangleShape::TriangleShape(const vox_shape_desc& desc, Array<Vec3d>&& points,
+                             Array<ShapeTriangle>&& triangles, double radius)
+    : RigidShape(desc, bounds_of(points, radius)), facets_(std::move(points), std::move(triangles)),
       radius_(radius), topology_(facets_.triangles.memory()), closest_tree_(facets_.triangles.memory()) {
-    if (kind == VOX_SHAPE_SHEET) return; // which encloses nothing
+    desc_.positions = vox_double_positions(&facets_.points.data()->x, facets_.points.size());
+    desc_.triangles = facets_.triangles.data()->data();
+    desc_.triangle_count = facets_.triangles.size();
     topology_.triangles.reserve(facets_.triangles.size());
     for (const auto& [a, b, c] : facets_.triangles) topology_.triangles.push_back({{a, b, c}, a});
     const Positions positions{reinterpret_cast<const std::byte*>(facets_.points.data()), sizeof(Vec3d), true};
     closest_tree_.update({&topology_, {}, positions}, false, nullptr);
-}
-
-vox_shape_desc TriangleShape::desc() const noexcept {
-    vox_shape_desc desc = vox_default_shape_desc();
-    desc.kind = kind();
-    desc.radius = radius_;
-    desc.positions = vox_double_positions(&facets_.points.data()->x, facets_.points.size());
-    desc.triangles = facets_.triangles.empty() ? nullptr : facets_.triangles.data()->data();
-    desc.triangle_count = facets_.triangles.size();
-    return desc;
 }
 
 // ---- what a point sees ----------------------------------------------------------------------------
@@ -91,33 +83,13 @@ std::uint32_t TriangleShape::look(std::span<const Vec3d> points, double reach, S
 
 bool TriangleShape::look(const Vec3d& p, double reach, depth::SearchState& state, ShapePoint& out) const {
     const bool is_enclosed = encloses(p), is_on = radius_ == 0 && is_on_surface(p);
+    if (!is_enclosed && !is_on && reach + radius_ == 0) return false;
     depth::Closest closest;
-    closest.at.triangle = VOX_NONE;
-    if (is_enclosed)
-        (void)closest_tree_.find(p, depth::SurfaceTree::no_vertex, state, closest);
-    else
-        closest.at.triangle = nearest_in_reach(p, is_on ? unlimited : (reach + radius_) * (1 + 0x1p-40));
-    if (closest.at.triangle == VOX_NONE) return false;
+    if (!closest_tree_.find(p, depth::SurfaceTree::no_vertex, state, closest)) return false;
     look_at(p, closest.at.triangle, is_enclosed, out);
     out.is_inside = is_enclosed || is_on || (radius_ > 0 && out.distance <= 0);
     if (is_on) out.distance = 0;
     return out.distance <= reach;
-}
-
-std::uint32_t TriangleShape::nearest_in_reach(const Vec3d& p, double reach) const {
-    double most = reach * reach;
-    std::uint32_t nearest = VOX_NONE;
-    facets_.triangle_tree.visit_nearest_first(
-        most, [&](const Box3f& box) { return squared_distance_bound(p, box); },
-        [&](std::uint32_t triangle) {
-            const ShapeTriangle& t = facets_.triangles[triangle];
-            const double squared =
-                closest_seen_from(p, corner(t, 0), corner(t, 1), corner(t, 2)).at.squared_distance;
-            if (squared > most || (squared == most && nearest < triangle)) return;
-            most = squared;
-            nearest = triangle;
-        });
-    return nearest;
 }
 
 // Without a triangle near, all points above and below the bounds are inside if one is: terrain has no
@@ -153,7 +125,7 @@ double TriangleShape::meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at
             first = triangle;
             at = seen;
         });
-    return first == VOX_NONE ? no_shape_meeting : earliest;
+    return first == VOX_NONE ? no_meeting : earliest;
 }
 
 bool TriangleShape::is_on_surface(const Vec3d& p) const {
@@ -217,8 +189,9 @@ void check_closed(std::span<const ShapeTriangle> triangles, std::pmr::memory_res
 
 } // namespace
 
-ClosedSurface::ClosedSurface(Array<Vec3d>&& points, Array<ShapeTriangle>&& triangles)
-    : TriangleShape(VOX_SHAPE_SOLID, std::move(points), std::move(triangles), 0) {
+ClosedSurface::ClosedSurface(const vox_shape_desc& desc, Array<Vec3d>&& points,
+                             Array<ShapeTriangle>&& triangles)
+    : TriangleShape(desc, std::move(points), std::move(triangles), 0) {
     check_closed(facets_.triangles, facets_.triangles.memory());
     double volume = 0, size = 0; // six times
     for (const auto& [a, b, c] : facets_.triangles) {
@@ -278,20 +251,11 @@ Array<ShapeTriangle> lattice(std::uint32_t columns, std::uint32_t rows, std::pmr
 
 } // namespace
 
-Heightfield::Heightfield(Array<Vec3d>&& points, const vox_shape_desc& desc)
-    : TriangleShape(VOX_SHAPE_HEIGHTFIELD, std::move(points),
-                    lattice(desc.columns, desc.rows, points.memory()), 0),
-      columns_(desc.columns), rows_(desc.rows), spacing_{desc.spacing[0], desc.spacing[1]} {
+Heightfield::Heightfield(const vox_shape_desc& desc, Array<Vec3d>&& points)
+    : TriangleShape(desc, std::move(points), lattice(desc.columns, desc.rows, points.memory()), 0) {
+    desc_.triangles = nullptr; // which are made of the heights
+    desc_.triangle_count = 0;
     bounds_.min.z = -unlimited;
-}
-
-vox_shape_desc Heightfield::desc() const noexcept {
-    vox_shape_desc desc = TriangleShape::desc();
-    desc.triangle_count = 0;
-    desc.columns = columns_;
-    desc.rows = rows_;
-    desc.spacing[0] = spacing_[0], desc.spacing[1] = spacing_[1];
-    return desc;
 }
 
 bool Heightfield::encloses(const Vec3d& p) const {
@@ -307,11 +271,12 @@ bool Heightfield::encloses(const Vec3d& p) const {
         }
         return low;
     };
-    const std::uint32_t column = cell(p.x, columns_, [&](std::uint32_t i) { return facets_.points[i].x; }),
-                        row = cell(p.y, rows_, [&](std::uint32_t i) {
-                            return facets_.points[i * std::size_t{columns_}].y;
+    const std::uint32_t column =
+                            cell(p.x, desc_.columns, [&](std::uint32_t i) { return facets_.points[i].x; }),
+                        row = cell(p.y, desc_.rows, [&](std::uint32_t i) {
+                            return facets_.points[i * std::size_t{desc_.columns}].y;
                         });
-    const std::size_t first = 2 * (row * (std::size_t{columns_} - 1) + column);
+    const std::size_t first = 2 * (row * (std::size_t{desc_.columns} - 1) + column);
     const ShapeTriangle& lower = facets_.triangles[first];
     const Vec3d &a = corner(lower, 0), &c = corner(lower, 2);
     std::uint64_t exact_tests = 0;

@@ -21,12 +21,11 @@ public:
     std::uint32_t look(std::span<const Vec3d> points, double reach, ShapePoint* out) const final;
     bool is_beyond(const Vec3d& centre, double radius, double reach) const final;
     double meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at) const final;
-    vox_shape_desc desc() const noexcept override;
     const ShapeFacets* facets() const noexcept final { return &facets_; }
 
 protected:
     // The triangles are part of the shape, and so is what is within `radius` of them.
-    TriangleShape(vox_shape_kind kind, Array<Vec3d>&& points, Array<ShapeTriangle>&& triangles,
+    TriangleShape(const vox_shape_desc& desc, Array<Vec3d>&& points, Array<ShapeTriangle>&& triangles,
                   double radius);
 
     // Whether p, which is not on a triangle, is in what the triangles enclose.
@@ -39,19 +38,18 @@ protected:
     ShapeFacets facets_;
     double radius_;
     Topology topology_;               // the triangles alone
-    depth::SurfaceTree closest_tree_; // over all of them, for points that are enclosed
+    depth::SurfaceTree closest_tree_; // over all of them
 
 private:
     bool look(const Vec3d& p, double reach, depth::SearchState& state, ShapePoint& out) const;
-    std::uint32_t nearest_in_reach(const Vec3d& p, double reach) const;
     void look_at(const Vec3d& p, std::uint32_t triangle, bool is_enclosed, ShapePoint& out) const noexcept;
 };
 
 // Thin: encloses nothing.
 class Sheet final : public TriangleShape {
 public:
-    Sheet(Array<Vec3d>&& points, Array<ShapeTriangle>&& triangles, double radius)
-        : TriangleShape(VOX_SHAPE_SHEET, std::move(points), std::move(triangles), radius) {}
+    Sheet(const vox_shape_desc& desc, Array<Vec3d>&& points, Array<ShapeTriangle>&& triangles)
+        : TriangleShape(desc, std::move(points), std::move(triangles), desc.radius) {}
 
 private:
     bool encloses(const Vec3d&) const override { return false; }
@@ -61,7 +59,7 @@ private:
 class ClosedSurface final : public TriangleShape {
 public:
     // Throws INVALID_MESH unless the surface is closed.
-    ClosedSurface(Array<Vec3d>&& points, Array<ShapeTriangle>&& triangles);
+    ClosedSurface(const vox_shape_desc& desc, Array<Vec3d>&& points, Array<ShapeTriangle>&& triangles);
 
 private:
     bool encloses(const Vec3d& p) const override;
@@ -70,14 +68,10 @@ private:
 // Terrain: each cell of a lattice is two triangles, and what is below them is inside, decided exactly.
 class Heightfield final : public TriangleShape {
 public:
-    Heightfield(Array<Vec3d>&& points, const vox_shape_desc& desc);
-    vox_shape_desc desc() const noexcept override;
+    Heightfield(const vox_shape_desc& desc, Array<Vec3d>&& points);
 
 private:
     bool encloses(const Vec3d& p) const override;
-
-    std::uint32_t columns_, rows_; // of points
-    double spacing_[2];
 };
 
 } // namespace vox
