@@ -89,7 +89,7 @@ private:
         if (!is_in_reach(lo, hi)) return;
         const std::array<std::uint8_t, 3> corners = outward(tile, face);
         const auto meet = [&](std::uint32_t e) {
-            const ShapeFacets::Edge& edge = facets_.edges[e];
+            const TriangleSide& edge = facets_.edges[e];
             if (ShapeCrossing* const crossing =
                     cross(facets_.points[edge.ends[0]], facets_.points[edge.ends[1]], at_[corners[0]],
                           at_[corners[1]], at_[corners[2]], of_shape_)) {

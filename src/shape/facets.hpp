@@ -8,22 +8,29 @@
 #include <array>
 #include <cstdint>
 #include <memory_resource>
+#include <span>
 
 namespace vox {
 
 using ShapeTriangle = std::array<std::uint32_t, 3>;
 
+// A side of a triangle.
+struct TriangleSide {
+    std::uint32_t ends[2]; // the lower first
+    std::uint32_t triangle;
+    bool is_up; // runs from the lower one to the higher in the order of the triangle
+};
+
+// All sides but those from a vertex to itself, by their ends and then by triangle.
+Array<TriangleSide> sorted_sides(std::span<const ShapeTriangle> triangles, std::pmr::memory_resource* memory);
+
 struct ShapeFacets {
     // Throws what the memory throws.
     ShapeFacets(Array<Vec3d>&& points, Array<ShapeTriangle>&& triangles);
 
-    struct Edge {
-        std::uint32_t ends[2];  // the lower first
-        std::uint32_t triangle; // the lowest that has it
-    };
     Array<Vec3d> points;
     Array<ShapeTriangle> triangles;
-    Array<Edge> edges; // each once, by their ends
+    Array<TriangleSide> edges; // each once, as a side of the lowest triangle that has it
     BoxTree triangle_tree, edge_tree;
 
     const Vec3d& corner(const ShapeTriangle& triangle, std::size_t i) const noexcept {

@@ -157,33 +157,21 @@ int side_from_above(const Vec3d& u, const Vec3d& v, const Vec3d& p, std::uint64_
 
 // Every edge belongs to as many triangles one way as the other way.
 void check_closed(std::span<const ShapeTriangle> triangles, std::pmr::memory_resource* memory) {
-    struct Edge {
-        std::uint32_t low, high;
-        bool is_up;
-        std::uint32_t triangle;
-    };
-    Array<Edge> edges(memory);
-    edges.reserve(3 * triangles.size());
-    for (std::uint32_t t = 0; t < triangles.size(); ++t)
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::uint32_t u = triangles[t][i], v = triangles[t][(i + 1) % 3];
-            edges.push_back({std::min(u, v), std::max(u, v), u < v, t});
-        }
-    const auto ends = [](const Edge& edge) { return std::pair(edge.low, edge.high); };
-    std::ranges::sort(edges, {}, ends);
-    for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
+    const Array<TriangleSide> sides = sorted_sides(triangles, memory);
+    for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
+        const auto& [low, high] = sides[i].ends;
         int up = 0;
-        for (end = i; end < edges.size() && ends(edges[end]) == ends(edges[i]); ++end)
-            up += edges[end].is_up ? 1 : -1;
-        if (up == 0 || edges[i].low == edges[i].high) continue;
+        for (end = i; end < sides.size() && sides[end].ends[0] == low && sides[end].ends[1] == high; ++end)
+            up += sides[end].is_up ? 1 : -1;
+        if (up == 0) continue;
         throw Error(VOX_ERROR_INVALID_MESH,
                     end - i == 1
                         ? format("edge (%u, %u) of triangle %u has no other triangle: a SOLID has to be "
                                  "closed, a SHEET need not be",
-                                 edges[i].low, edges[i].high, edges[i].triangle)
+                                 low, high, sides[i].triangle)
                         : format("edge (%u, %u) runs the same way in triangles %u and %u: the triangles of a "
                                  "SOLID have to be counter-clockwise as seen from outside",
-                                 edges[i].low, edges[i].high, edges[i].triangle, edges[i + 1].triangle));
+                                 low, high, sides[i].triangle, sides[i + 1].triangle));
     }
 }
 
