@@ -1,8 +1,8 @@
 /* What rigid shapes cost: a floor under a ball, at several depths, beside a slab of five tetrahedra in its
- * place; a tool of some thousand triangles, and a blade, at many places in the ball. Prints Markdown tables;
- * times are the least of many steps.
+ * place; round tools, the worst there are, as all triangles are about as far from the middle, and a blade, at
+ * many places in the ball. Prints Markdown tables; times are the least of many steps.
  *
- *     bench_shapes [half]     cells from the middle of the ball to its surface; 25 makes 330,000 tetrahedra
+ *     bench_shapes [half]     cells from the middle of the ball to its surface; 25 makes 316,160 tetrahedra
  */
 #include "scenes/bodies.h"
 #include "scenes/counters.h"
@@ -135,15 +135,20 @@ static vox_shape_desc make_tool(int divisions, double radius, double** positions
 
 static void time_tools(const body* ball, double half) {
     printf("\n| tool | triangles | found, mean | step, mean | without it |\n|---|---:|---:|---:|---:|\n");
-    for (int kind = 0; kind < 3; ++kind) { /* a round tool; a blade; a blade that moves */
+    enum { tool_ball, large_ball, blade_at_rest, blade_that_moves, kinds };
+    static const char* const names[kinds] = {"a ball", "a large ball", "a blade, edges",
+                                             "a blade that moves, edges and impacts"};
+    for (int kind = 0; kind < kinds; ++kind) {
+        const int is_blade = kind >= blade_at_rest;
         vox_body id, tool;
-        vox_grid* grid = grid_with(kind > 0 ? VOX_GRID_EDGES : 0, ball, &id);
+        vox_grid* grid = grid_with(is_blade ? VOX_GRID_EDGES : 0, ball, &id);
         const cost alone = cost_of(grid, id);
         double *positions = NULL, edge = 0.8 * half,
                blade[12] = {0, -edge, 0, 0, edge, 0, 0, edge, 2 * half, 0, -edge, 2 * half};
         uint32_t *triangles = NULL, two[6] = {0, 1, 2, 0, 2, 3};
-        vox_shape_desc desc = make_tool(11, 0.3 * half, &positions, &triangles);
-        if (kind > 0) {
+        vox_shape_desc desc = make_tool(kind == large_ball ? 60 : 11, (kind == large_ball ? 0.6 : 0.3) * half,
+                                        &positions, &triangles);
+        if (is_blade) {
             desc.kind = VOX_SHAPE_SHEET;
             desc.positions = vox_double_positions(blade, 4);
             desc.triangles = two;
@@ -155,16 +160,13 @@ static void time_tools(const body* ball, double half) {
         for (int i = 0; i < places; ++i) {
             const double x = half * (2 * (i + 0.5) / places - 1),
                          before[12] = {1, 0, 0, x - 0.05 * half, 0, 1, 0, 0, 0, 0, 1, 0.9 * half};
-            place(grid, tool, x, kind ? 0 : 0.9 * half);
-            if (kind == 2) must_(vox_shape_set_previous_transform(grid, tool, before));
+            place(grid, tool, x, is_blade ? 0 : 0.9 * half);
+            if (kind == blade_that_moves) must_(vox_shape_set_previous_transform(grid, tool, before));
             const cost here = cost_of(grid, id);
             step += here.step / places;
             found += (double)here.found / places;
         }
-        printf("| %s | %llu | %.0f | %.3f ms | %.3f ms |\n",
-               kind == 0   ? "a ball"
-               : kind == 1 ? "a blade, edges"
-                           : "a blade that moves, edges and impacts",
+        printf("| %s | %llu | %.0f | %.3f ms | %.3f ms |\n", names[kind],
                (unsigned long long)desc.triangle_count, found, 1e3 * step, 1e3 * alone.step);
         free(positions);
         free(triangles);
