@@ -3,6 +3,7 @@ missing) in the environment; `check` does it. `python test_contact.py measure` p
 
 import copy
 import ctypes
+import importlib.util
 import json
 import os
 import re
@@ -152,6 +153,92 @@ class TwoBodies(unittest.TestCase):
         self.assertLess(abs(angular).max(), 1e-6 * force[2])
 
 
+class Nodes(unittest.TestCase):
+    """Flexes whose vertices are interpolated from nodes."""
+
+    KINDS = [("trilinear", "1 1 1"), ("trilinear", "2 1 3"), ("quadratic", "1 1 1"), ("quadratic", "2 2 1")]
+
+    def test_forces_are_those_of_the_vertices_by_the_weights_of_the_nodes(self):
+        def bodies(**dof):
+            return [flex("low", "0 0 1", **dof), flex("high", f".031 .017 {1 + 0.93 * SIDE}", **dof)]
+        config = {"stiffness": 100, "damping": 3}
+        full = model(*bodies(), gravity="0 0 0", **config)
+        for dof, cells in self.KINDS:
+            m = model(*bodies(dof=dof, rest=f'cellcount="{cells}"'), gravity="0 0 0", **config)
+            d, of_vertices = mujoco.MjData(m), mujoco.MjData(full)
+            mujoco.mj_forward(m, d)
+            start = d.flexvert_xpos.copy()
+            weights = np.zeros((len(start), m.nv // 3))  # how MuJoCo moves vertices when a node moves
+            for dof_id in range(0, m.nv, 3):
+                d.qpos[:] = 0
+                d.qpos[dof_id] = 1
+                mujoco.mj_kinematics(m, d)
+                mujoco.mj_comPos(m, d)
+                mujoco.mj_flex(m, d)
+                weights[:, dof_id // 3] = np.linalg.norm(d.flexvert_xpos - start, axis=1) * np.sign((d.flexvert_xpos - start).sum(axis=1))
+            rng = np.random.default_rng(5)
+            d.qpos[:] = 0.004 * rng.normal(size=m.nv)
+            d.qvel[:] = 0.3 * rng.normal(size=m.nv)
+            m.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONTACT
+            mujoco.mj_forward(m, d)
+            alone = d.qfrc_passive.copy()
+            m.opt.disableflags = 0
+            mujoco.mj_forward(m, d)
+            forces = (d.qfrc_passive - alone).reshape(-1, 3)
+            of_vertices.qpos[:] = (d.flexvert_xpos - start).ravel()
+            of_vertices.qvel[:] = (weights @ d.qvel.reshape(-1, 3)).ravel()
+            full.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONTACT
+            mujoco.mj_forward(full, of_vertices)
+            alone = of_vertices.qfrc_passive.copy()
+            full.opt.disableflags = 0
+            mujoco.mj_forward(full, of_vertices)
+            vertex_forces = (of_vertices.qfrc_passive - alone).reshape(-1, 3)
+            self.assertGreater(abs(vertex_forces).max(), 0.1, (dof, cells))
+            np.testing.assert_allclose(forces, weights.T @ vertex_forces, rtol=0, atol=1e-8 * abs(vertex_forces).max())
+
+    def test_they_fall_on_each_other_and_rest(self):
+        for dof, cells in self.KINDS:
+            rest = f'cellcount="{cells}"'
+            m = model(flex("low", f"0 0 {0.51 * SIDE}", dof=dof, rest=rest), flex("high", f".003 .002 {1.7 * SIDE}", dof=dof, rest=rest))
+            m.opt.timestep = 0.001
+            d = mujoco.MjData(m)
+            for _ in range(800):
+                mujoco.mj_step(m, d)
+            count, depth = d.sensor("found").data
+            self.assertGreater(count, 0, (dof, cells))
+            self.assertLess(depth, 0.03 * SIDE, (dof, cells))
+            self.assertLess(abs(d.qvel).max(), 0.05, (dof, cells))
+
+    def test_a_pinned_corner_is_carried_by_the_body_it_is_pinned_to(self):
+        pinned = flex("high", f".031 .017 {1 + 0.93 * SIDE}", dof="trilinear").replace("</flexcomp>", '<pin id="4 5"/></flexcomp>')
+        m = model(flex("low", "0 0 1"), f'<body name="holder"><freejoint/><geom size=".01" mass="1" contype="0" conaffinity="0"/>{pinned}</body>', gravity="0 0 0")
+        d = mujoco.MjData(m)
+        mujoco.mj_forward(m, d)
+        low = d.qfrc_passive[:3 * 64].reshape(-1, 3).sum(axis=0)
+        free = m.jnt_dofadr[np.flatnonzero(m.jnt_type == mujoco.mjtJoint.mjJNT_FREE)[0]]
+        self.assertLess(low[2], 0)
+        self.assertLess(abs(low + d.qfrc_passive[free:free + 3]).max(), 1e-6 * abs(low[2]))
+
+
+class Excluded(unittest.TestCase):
+    def test_elements_take_no_part(self):
+        every = overlapping().flex_elemnum[0]
+        counts = []
+        for text in ("", f"low:0-{every // 2} low:{every - 1}", f"high:0-{every - 1}", f"low:0-{every - 1}"):
+            m = overlapping(**({"exclude": text} if text else {}))
+            d = mujoco.MjData(m)
+            mujoco.mj_forward(m, d)
+            counts.append(d.sensor("found").data[0])
+        self.assertTrue(counts[0] > counts[1] > 0, counts)
+        self.assertEqual(counts[2:], [0, 0])
+
+    def test_of_its_mistakes(self):
+        for text, pattern in (("nobody:1", "nobody:1.*not a flex"), ("low", '"low".*not a flex'), ("low:5-2", "elements 0 to"),
+                              ("low:1x", "elements 0 to"), ("low:-1", "elements 0 to"), ("low:99999", "elements 0 to")):
+            with self.assertRaisesRegex(ValueError, "vox.contact: exclude has.*" + pattern):
+                overlapping(exclude=text)
+
+
 class Contacts(unittest.TestCase):
     def write(self, m, d, flex_id, name):
         first, count = m.flex_vertadr[flex_id], m.flex_vertnum[flex_id]
@@ -242,7 +329,7 @@ class Mistakes(unittest.TestCase):
         cloth = '<flexcomp name="cloth" type="grid" dim="2" count="3 3 1" spacing=".1 .1 .1" pos="0 0 1" mass="1"/>'
         self.fails(r"the model has 1 flexes, but none of tetrahedra", cloth)
         self.fails(r'flex "cloth" has dim 2', flex("low", "0 0 1"), cloth, flexes="cloth")
-        self.fails(r'the vertices of flex 0 "low" are interpolated', flex("low", "0 0 1", dof="trilinear"))
+        self.fails(r'flex 0 "low" is a shell', flex("low", "0 0 1", dof="trilinear").replace("<elasticity", '<elasticity elastic2d="both" thickness=".01"'))
         d = mujoco.MjData(model(flex("low", "0 0 1"), cloth))  # the cloth takes no part
         self.assertEqual(d.sensor("found").data.tolist(), [0, 0])
 
@@ -308,6 +395,29 @@ class SeveralData(unittest.TestCase):
             np.testing.assert_array_equal(a[0], b[0])
             self.assertEqual(a[1], b[1])
             np.testing.assert_array_equal(a[2], b[2])
+
+    @unittest.skipUnless(importlib.util.find_spec("mujoco.batch"), "this MuJoCo has no batches")
+    def test_a_batch_is_a_loop(self):
+        from mujoco.batch import Batch
+        m, count = overlapping(self="true", rings=1), 64
+        rng = np.random.default_rng(3)
+        starts = 0.02 * rng.normal(size=(count, m.nv))
+        alone = []
+        for start in starts:
+            d = mujoco.MjData(m)
+            d.qvel[:] = start
+            for _ in range(10):
+                mujoco.mj_step(m, d)
+            alone.append((d.qpos.copy(), d.qvel.copy(), d.sensordata.copy()))
+        batch = Batch(m, nsim=count, nthread=3)  # simulations share three mjData
+        qpos, qvel, found = batch.bind("qpos"), batch.bind("qvel"), batch.bind("sensordata")
+        qvel[:] = starts
+        for _ in range(10):
+            batch.step()
+        np.testing.assert_array_equal(qpos, [a[0] for a in alone])
+        np.testing.assert_array_equal(qvel, [a[1] for a in alone])
+        np.testing.assert_array_equal(found, [a[2] for a in alone])
+        self.assertGreater(found[:, 0].min(), 0)
 
     def test_a_copy_goes_on_alike_and_a_reset_begins_anew(self):
         m = overlapping(workers=2)

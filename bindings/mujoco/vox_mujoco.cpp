@@ -52,22 +52,63 @@ constexpr std::array<Key, 6> keys = {{
     {"workers", &Settings::workers, 0, VOX_MAX_WORKERS, Kind::whole},
 }};
 constexpr const char* flexes_key = "flexes";
+constexpr const char* exclude_key = "exclude";
 
 struct GridDeleter {
     void operator()(vox_grid* grid) const { vox_grid_destroy(grid); }
+};
+
+struct Vector {
+    double x = 0, y = 0, z = 0;
+};
+Vector operator+(Vector a, Vector b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+Vector operator-(Vector a, Vector b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+Vector operator*(double s, Vector a) { return {s * a.x, s * a.y, s * a.z}; }
+double dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Vector cross(Vector a, Vector b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <typename Number>
+Vector vector(const Number* v) {
+    return {v[0], v[1], v[2]};
+}
+
+// A body that moves a vertex with this weight: its own, or that of a node which it is interpolated from.
+struct Carrier {
+    int body;
+    int node; // -1: the body is the vertex's own
+    double weight;
+};
+
+// What a step gathers of a vertex that constraints touch.
+struct Touched {
+    double load = 0;         // sum of the weights by which constraints move it
+    double inverse_mass = 0; // of a unit weight, see `respond`
+    Vector velocity, force;
 };
 
 // An instance in one mjData. Nothing of the mjModel is kept, as it may be freed first.
 struct Instance {
     std::unique_ptr<vox_grid, GridDeleter> grid;
     Settings settings;
-    std::vector<int> flexes;           // ids of those that take part, ascending
-    std::vector<vox_body> meshes;      // of each of them, ascending; empty until there are positions
-    const mjtNum* positions = nullptr; // d->flexvert_xpos, as bound
+    std::vector<int> flexes;             // ids of those that take part, ascending
+    std::vector<vox_body> meshes;        // of each of them, ascending; empty until there are positions
+    const mjtNum* positions = nullptr;   // d->flexvert_xpos, as bound
+    std::vector<uint32_t> first_carrier; // of each vertex of the model, and of one past the last
+    std::vector<Carrier> carriers;
+    std::vector<uint8_t> excluded; // of each element of the model: takes no part
+    std::vector<uint8_t> silent;   // of each vertex: all of its elements are excluded
+    std::vector<Touched> vertices; // of each vertex; as it is made where `touched` does not have it
+    std::vector<int> touched;
     std::vector<double> load; // of each body: sum of the weights by which penetrations move it; else 0
     std::string failure; // text of the last step's error, so that it is reported once; "" if it succeeded
     double penetrations = 0;
     double greatest_depth = 0;
+
+    std::span<const Carrier> carriers_of(int vertex) const {
+        const uint32_t* first = first_carrier.data() + vertex;
+        return std::span(carriers).subspan(first[0], first[1] - first[0]);
+    }
 };
 
 void check(vox_result result) {
@@ -132,12 +173,86 @@ std::vector<int> read_flexes(const mjModel* m, int instance) {
     if (flexes.empty())
         fail("the model has %d flexes, but none of tetrahedra (dim 3)", static_cast<int>(m->nflex));
     for (const int flex : flexes)
-        if (m->flex_interp[flex] != 0)
-            fail("the vertices of flex %d \"%.100s\" are interpolated from nodes (dof \"trilinear\" or "
-                 "\"quadratic\"); "
-                 "forces can be applied to vertices with bodies of their own alone",
+        if (m->flex_interp[flex] < 0 || m->flex_interp[flex] > 2)
+            fail("flex %d \"%.100s\" is a shell: the nodes inside of it follow from others (elastic2d). "
+                 "vox.contact "
+                 "knows dof \"full\", \"trilinear\" and \"quadratic\"",
                  flex, flex_name(m, flex));
     return flexes;
+}
+
+// Marks the elements that `exclude` names: "flex:3 flex:10-19".
+void read_excluded(Instance& instance, const mjModel* m, int id) {
+    std::istringstream parts(config(m, id, exclude_key));
+    for (std::string part; parts >> part;) {
+        const size_t colon = part.rfind(':');
+        const std::string name = part.substr(0, colon);
+        const int flex = colon == std::string::npos ? -1 : mj_name2id(m, mjOBJ_FLEX, name.c_str());
+        if (!std::binary_search(instance.flexes.begin(), instance.flexes.end(), flex))
+            fail("%s has \"%.100s\", which is not a flex that takes part, a colon and elements", exclude_key,
+                 part.c_str());
+        int first = -1, last = -1, used = 0;
+        const char* range = part.c_str() + colon + 1;
+        if (std::sscanf(range, "%d%n-%d%n", &first, &used, &last, &used) == 1) last = first;
+        if (range[used] || first < 0 || last < first || last >= m->flex_elemnum[flex])
+            fail("%s has \"%.100s\", but flex \"%.100s\" has elements 0 to %d", exclude_key, part.c_str(),
+                 name.c_str(), m->flex_elemnum[flex] - 1);
+        const auto begin = instance.excluded.begin() + m->flex_elemadr[flex];
+        std::fill(begin + first, begin + last + 1, uint8_t{1});
+    }
+    for (const int flex : instance.flexes) {
+        const auto vertices = instance.silent.begin() + m->flex_vertadr[flex];
+        const int* corner = m->flex_elem + m->flex_elemdataadr[flex];
+        for (int element = 0; element < m->flex_elemnum[flex]; ++element)
+            for (int k = 0; k < 4; ++k, ++corner)
+                if (!instance.excluded[static_cast<size_t>(m->flex_elemadr[flex] + element)])
+                    vertices[*corner] = 0;
+    }
+}
+
+// The polynomials of one dimension that interpolate between order + 1 nodes on [0, 1].
+std::array<double, 3> basis(int order, double x) {
+    if (order == 1) return {1 - x, x, 0};
+    return {(1 - x) * (1 - 2 * x), 4 * x * (1 - x), x * (2 * x - 1)};
+}
+
+// The nodes that MuJoCo interpolates a vertex from: those of its cell in a lattice of cells, z fastest.
+void add_nodes(Instance& instance, const mjModel* m, int flex, int vertex) {
+    const int order = m->flex_interp[flex];
+    const int* cells = m->flex_cellnum + 3 * static_cast<ptrdiff_t>(flex);
+    const mjtNum* at = m->flex_vert0 + 3 * static_cast<ptrdiff_t>(vertex);
+    std::array<int, 3> first;
+    std::array<std::array<double, 3>, 3> weights;
+    for (size_t k = 0; k < 3; ++k) {
+        const int cell = static_cast<int>(std::clamp(std::floor(at[k] * cells[k]), 0.0, cells[k] - 1.0));
+        first[k] = cell * order;
+        weights[k] = basis(order, std::clamp<double>(at[k] * cells[k] - cell, 0, 1));
+    }
+    for (int i = 0; i <= order; ++i)
+        for (int j = 0; j <= order; ++j)
+            for (int k = 0; k <= order; ++k) {
+                const double weight = weights[0][static_cast<size_t>(i)] *
+                                      weights[1][static_cast<size_t>(j)] * weights[2][static_cast<size_t>(k)];
+                if (weight == 0) continue;
+                const int row = (first[0] + i) * (cells[1] * order + 1) + first[1] + j;
+                const int node = m->flex_nodeadr[flex] + row * (cells[2] * order + 1) + first[2] + k;
+                instance.carriers.push_back({m->flex_nodebodyid[node], node, weight});
+            }
+}
+
+void find_carriers(Instance& instance, const mjModel* m) {
+    instance.first_carrier.push_back(0);
+    for (int flex = 0; flex < static_cast<int>(m->nflex); ++flex) {
+        const bool takes_part = std::binary_search(instance.flexes.begin(), instance.flexes.end(), flex);
+        for (int i = 0; i < m->flex_vertnum[flex]; ++i) {
+            const int vertex = m->flex_vertadr[flex] + i;
+            if (takes_part && m->flex_interp[flex] != 0)
+                add_nodes(instance, m, flex, vertex);
+            else if (takes_part)
+                instance.carriers.push_back({m->flex_vertbodyid[vertex], -1, 1});
+            instance.first_carrier.push_back(static_cast<uint32_t>(instance.carriers.size()));
+        }
+    }
 }
 
 std::unique_ptr<Instance> make_instance(const mjModel* m, int id) {
@@ -146,6 +261,12 @@ std::unique_ptr<Instance> make_instance(const mjModel* m, int id) {
     instance->flexes = read_flexes(m, id);
     instance->meshes.reserve(instance->flexes.size());
     instance->load.resize(static_cast<size_t>(m->nbody));
+    instance->vertices.resize(static_cast<size_t>(m->nflexvert));
+    instance->touched.reserve(static_cast<size_t>(m->nflexvert));
+    instance->excluded.resize(static_cast<size_t>(m->nflexelem));
+    instance->silent.assign(static_cast<size_t>(m->nflexvert), 1);
+    read_excluded(*instance, m, id);
+    find_carriers(*instance, m);
     vox_grid_desc desc = vox_default_grid_desc();
     desc.flags = VOX_GRID_CONSTRAINTS;
     const int workers = instance->settings.workers;
@@ -201,46 +322,79 @@ void find_penetrations(Instance& instance, const mjModel* m, const mjData* d) {
     check(vox_grid_step(instance.grid.get()));
 }
 
-struct Vector {
-    double x = 0, y = 0, z = 0;
-};
-Vector operator+(Vector a, Vector b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-Vector operator-(Vector a, Vector b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-Vector operator*(double s, Vector a) { return {s * a.x, s * a.y, s * a.z}; }
-double dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Vector cross(Vector a, Vector b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-template <typename Number>
-Vector vector(const Number* v) {
-    return {v[0], v[1], v[2]};
-}
-
-// From the point that spatial vectors of a body refer to, the centre of mass of its tree, to a vertex.
-Vector lever(const mjModel* m, const mjData* d, int vertex, int body) {
-    return vector(d->flexvert_xpos + 3 * static_cast<ptrdiff_t>(vertex)) -
-           vector(d->subtree_com + 3 * static_cast<ptrdiff_t>(m->body_rootid[body]));
+// From the point that spatial vectors of a body refer to, the centre of mass of its tree, to where it carries
+// a vertex.
+Vector lever(const mjModel* m, const mjData* d, int vertex, const Carrier& carrier) {
+    const ptrdiff_t body = carrier.body;
+    Vector point = vector(d->flexvert_xpos + 3 * static_cast<ptrdiff_t>(vertex));
+    if (carrier.node >= 0) {
+        const Vector local = vector(m->flex_node + 3 * static_cast<ptrdiff_t>(carrier.node));
+        const mjtNum* row = d->xmat + 9 * body;
+        point = vector(d->xpos + 3 * body) +
+                Vector{dot(vector(row), local), dot(vector(row + 3), local), dot(vector(row + 6), local)};
+    }
+    return point - vector(d->subtree_com + 3 * static_cast<ptrdiff_t>(m->body_rootid[body]));
 }
 
-Vector velocity(const mjModel* m, const mjData* d, int vertex) {
-    const int body = m->flex_vertbodyid[vertex];
-    const mjtNum* v = d->cvel + 6 * static_cast<ptrdiff_t>(body);
-    return vector(v + 3) + cross(vector(v), lever(m, d, vertex, body));
+Vector velocity(const mjModel* m, const mjData* d, int vertex, const Carrier& carrier) {
+    const mjtNum* v = d->cvel + 6 * static_cast<ptrdiff_t>(carrier.body);
+    return vector(v + 3) + cross(vector(v), lever(m, d, vertex, carrier));
 }
 
 // Adds a force on a vertex to qfrc_passive. As mj_applyFT, but without its Jacobian of 3 rows and nv columns:
-// only the dofs between the vertex's body and the world are visited, which are 3 for a vertex of its own.
-void apply(const mjModel* m, mjData* d, int vertex, Vector force) {
-    int body = m->flex_vertbodyid[vertex];
+// only the dofs between the body and the world are visited, which are 3 for a vertex of its own.
+void apply(const mjModel* m, mjData* d, int vertex, const Carrier& carrier, Vector force) {
+    int body = carrier.body;
     if (d->body_awake[body] == mjS_ASLEEP)
         return; // passive forces of sleeping bodies are not set to 0 in a step
-    const Vector torque = cross(lever(m, d, vertex, body), force);
+    const Vector torque = cross(lever(m, d, vertex, carrier), force);
     while (body > 0 && m->body_dofnum[body] == 0) body = m->body_parentid[body];
     if (body == 0) return;
     for (int dof = m->body_dofadr[body] + m->body_dofnum[body] - 1; dof >= 0; dof = m->dof_parentid[dof]) {
         const mjtNum* axis = d->cdof + 6 * static_cast<ptrdiff_t>(dof);
         d->qfrc_passive[dof] += static_cast<mjtNum>(dot(vector(axis), torque) + dot(vector(axis + 3), force));
     }
+}
+
+int vertex_of(const mjModel* m, const vox_constraint& c, size_t i) {
+    const auto flex = static_cast<size_t>(i < c.count_a ? c.user_data_a : c.user_data_b);
+    return m->flex_vertadr[flex] + static_cast<int>(c.vertices[i]);
+}
+
+bool is_excluded(const Instance& instance, const mjModel* m, const vox_constraint& c) {
+    const auto element = static_cast<size_t>(m->flex_elemadr[c.user_data_b]) + c.element_b;
+    return instance.excluded[element] || instance.silent[static_cast<size_t>(vertex_of(m, c, 0))];
+}
+
+// Visits each carrier of each vertex that constraints touch.
+template <typename Visit>
+void each_carrier(Instance& instance, const Visit& visit) {
+    for (const int vertex : instance.touched)
+        for (const Carrier& carrier : instance.carriers_of(vertex))
+            visit(vertex, instance.vertices[static_cast<size_t>(vertex)], carrier,
+                  instance.load[static_cast<size_t>(carrier.body)]);
+}
+
+// Gathers what `respond` needs of the vertices that constraints touch.
+void touch(Instance& instance, std::span<const vox_constraint> constraints, const mjModel* m,
+           const mjData* d) {
+    for (const vox_constraint& c : constraints) {
+        if (is_excluded(instance, m, c)) continue;
+        for (size_t i = 0; i < c.count; ++i) {
+            const int vertex = vertex_of(m, c, i);
+            Touched& at = instance.vertices[static_cast<size_t>(vertex)];
+            if (at.load == 0 && c.weights[i] != 0) instance.touched.push_back(vertex);
+            at.load += std::abs(c.weights[i]);
+        }
+    }
+    each_carrier(instance, [](int, Touched& at, const Carrier& carrier, double& load) {
+        load += at.load * std::abs(carrier.weight);
+    });
+    each_carrier(instance, [&](int vertex, Touched& at, const Carrier& carrier, double load) {
+        at.inverse_mass += std::abs(carrier.weight) * load * m->body_invweight0[2 * carrier.body];
+        at.velocity = at.velocity + carrier.weight * velocity(m, d, vertex, carrier);
+    });
+    each_carrier(instance, [](int, Touched&, const Carrier&, double& load) { load = 0; });
 }
 
 // Forces that end the penetrations: a spring and a damper along each direction, and friction across it.
@@ -251,32 +405,27 @@ void apply(const mjModel* m, mjData* d, int vertex, Vector force) {
 // sum of |w| over all penetrations of a body. With stiffness mass / t^2 and damping 2 mass / t, by
 // Gershgorin's theorem every mode of the contacts has at most the frequency 1/t and is damped critically at
 // most. A step of semi-implicit Euler is then stable if (h/t)^2 + 4 h/t < 4, so for t >= 2 h with room for
-// the flexes' own elasticity.
+// the flexes' own elasticity. A vertex between nodes has the weights of its nodes in place of its own.
 void respond(Instance& instance, const mjModel* m, mjData* d) {
     vox_constraint_view view{};
     check(vox_grid_get_constraints(instance.grid.get(), &view));
     const std::span constraints(view.data, static_cast<size_t>(view.count));
-    const auto vertex = [m](const vox_constraint& c, size_t i) {
-        return m->flex_vertadr[i < c.count_a ? c.user_data_a : c.user_data_b] +
-               static_cast<int>(c.vertices[i]);
-    };
-    const auto body = [&](const vox_constraint& c, size_t i) {
-        return static_cast<size_t>(m->flex_vertbodyid[vertex(c, i)]);
-    };
+    touch(instance, constraints, m, d);
 
-    for (const vox_constraint& c : constraints)
-        for (size_t i = 0; i < c.count; ++i) instance.load[body(c, i)] += std::abs(c.weights[i]);
     const Settings& settings = instance.settings;
     const double timeconst = std::max(settings.timeconst, least_timesteps * m->opt.timestep);
-    instance.penetrations = static_cast<double>(constraints.size());
     for (const vox_constraint& c : constraints) {
+        if (is_excluded(instance, m, c)) continue;
+        const auto touched = [&](size_t i) -> Touched& {
+            return instance.vertices[static_cast<size_t>(vertex_of(m, c, i))];
+        };
+        ++instance.penetrations;
         instance.greatest_depth = std::max(instance.greatest_depth, -c.gap);
         double inverse_mass = 0;
         Vector speed; // of the vertex, as seen from the tetrahedron
         for (size_t i = 0; i < c.count; ++i) {
-            inverse_mass +=
-                std::abs(c.weights[i]) * instance.load[body(c, i)] * m->body_invweight0[2 * body(c, i)];
-            speed = speed + c.weights[i] * velocity(m, d, vertex(c, i));
+            inverse_mass += std::abs(c.weights[i]) * touched(i).inverse_mass;
+            speed = speed + c.weights[i] * touched(i).velocity;
         }
         if (!(inverse_mass > 0)) continue; // nothing that could move
         const double mass = 1 / inverse_mass;
@@ -293,10 +442,15 @@ void respond(Instance& instance, const mjModel* m, mjData* d) {
         const double rate = std::sqrt(dot(sliding, sliding));
         const double drag = damping * rate > friction * pressure ? friction * pressure / rate : damping;
         const Vector force = pressure * normal - drag * sliding;
-        for (size_t i = 0; i < c.count; ++i) apply(m, d, vertex(c, i), c.weights[i] * force);
+        for (size_t i = 0; i < c.count; ++i) touched(i).force = touched(i).force + c.weights[i] * force;
     }
-    for (const vox_constraint& c : constraints)
-        for (size_t i = 0; i < c.count; ++i) instance.load[body(c, i)] = 0;
+    for (const int vertex : instance.touched) {
+        Touched& touched = instance.vertices[static_cast<size_t>(vertex)];
+        for (const Carrier& carrier : instance.carriers_of(vertex))
+            apply(m, d, vertex, carrier, carrier.weight * touched.force);
+        touched = {};
+    }
+    instance.touched.clear();
 }
 
 Instance* get(const mjData* d, int instance) { return reinterpret_cast<Instance*>(d->plugin_data[instance]); }
@@ -378,9 +532,10 @@ mjPLUGIN_LIB_INIT(vox_contact) {
                     mj_version());
         return;
     }
-    std::array<const char*, keys.size() + 1> names{};
+    std::array<const char*, keys.size() + 2> names{};
     for (size_t i = 0; i < keys.size(); ++i) names[i] = keys[i].name;
-    names.back() = flexes_key;
+    names[keys.size()] = flexes_key;
+    names.back() = exclude_key;
 
     mjpPlugin plugin;
     mjp_defaultPlugin(&plugin);
