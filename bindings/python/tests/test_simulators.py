@@ -173,6 +173,22 @@ class IpcToolkit(unittest.TestCase):
         every.clear()
         self.assertEqual(every.detect_edge_edge_candidates(), [])
 
+    def test_in_two_dimensions(self):
+        """As in IPC Toolkit's own test of broad phases."""
+        import ipctk
+        from voxtet.ipctk import BroadPhase
+        start = np.array([[1.11111, 0.5], [1.11111, 0.75], [1, 0.5], [1, 0.75]])
+        end = start - [[0.222222, 0], [0.222222, 0], [0, 0], [0, 0]]
+        mesh = ipctk.CollisionMesh(start, np.array([[1, 0], [2, 3]]), np.zeros((0, 3), int))
+        found = []
+        for phase in (BroadPhase(), ipctk.BruteForce()):
+            candidates = ipctk.Candidates()
+            candidates.build(mesh, start, end, 0, phase)
+            self.assertFalse(candidates.is_step_collision_free(mesh, start, end))
+            found.append(self.names(candidates.ev_candidates))
+        self.assertEqual(found[0], found[1])
+        self.assertEqual(len(found[0]), 4)
+
     def test_within_candidates(self):
         import ipctk
         from voxtet.ipctk import BroadPhase

@@ -33,8 +33,10 @@ class BroadPhase(ipctk.BroadPhase):  # type: ignore[misc]
         self._corners = {}
 
     def build(self, *arguments: Any) -> None:
-        """vertices, or those at either end of the motion; edges; faces; the inflation radius (0)."""
-        *positions, edges, faces, radius = arguments if np.ndim(arguments[-1]) == 0 else (*arguments, 0.0)
+        """vertices, in two or three dimensions, or those at either end of the motion; edges; faces; the inflation radius (0)."""
+        *given, edges, faces, radius = arguments if np.ndim(arguments[-1]) == 0 else (*arguments, 0.0)
+        super().build(given[0], edges, faces, float(radius))  # which notes the dimension
+        positions = [np.pad(p, ((0, 0), (0, 3 - np.shape(p)[1]))) for p in given]
         count = len(positions[0])
         self._corners = {"vertex": [(v,) for v in range(count)], "edge": edges.tolist(), "face": faces.tolist()}
         self._surface = Surface(faces.astype(np.uint32).reshape(-1, 3), edges=edges.astype(np.uint32).reshape(-1, 2),
