@@ -34,7 +34,8 @@ Placement MovingShape::at(double part) const {
     const Eigen::Quaterniond first(Eigen::Matrix3d(from.axes / scales[0])),
         last(Eigen::Matrix3d(to.axes / scales[1]));
     const double side = first.dot(last) < 0 ? -1 : 1;
-    const Eigen::Quaterniond turn(Eigen::Vector4d((1 - part) * first.coeffs() + (side * part) * last.coeffs()));
+    const Eigen::Quaterniond turn(
+        Eigen::Vector4d((1 - part) * first.coeffs() + (side * part) * last.coeffs()));
     return {((1 - part) * scales[0] + part * scales[1]) * turn.normalized().toRotationMatrix(),
             (1 - part) * from.place + part * to.place};
 }

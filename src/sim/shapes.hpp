@@ -1,5 +1,5 @@
-// Rigid shapes that the caller has put into the grid. Within a step each moves at constant speed from where the
-// step before left it to where the caller has placed it since, so that it pushes and drags bodies.
+// Rigid shapes that the caller has put into the grid. Within a step each moves at constant speed from where
+// the step before left it to where the caller has placed it since, so that it pushes and drags bodies.
 #pragma once
 
 #include "base/array.hpp"
