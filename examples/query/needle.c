@@ -1,5 +1,5 @@
-/* A needle goes into an organ: the force that a hand feels, from the tetrahedra on its way. Each holds the shaft by
- * friction along the length inside it, and the tip has to cut the one that it is in. */
+/* A needle goes into an organ: the force that a hand feels, from the tetrahedra on its way. Each holds the
+ * shaft by friction along the length inside it, and the tip has to cut the one that it is in. */
 #include "example.h"
 
 #include <vox/vox_query.h>

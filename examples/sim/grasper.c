@@ -1,5 +1,5 @@
-/* A grasper: two capsules close around a soft block, lift it by friction, hold it and let it fall. The jaws are
- * shapes in the grid of a simulation, which moves them to where they are placed before each step. */
+/* A grasper: two capsules close around a soft block, lift it by friction, hold it and let it fall. The jaws
+ * are shapes in the grid of a simulation, which moves them to where they are placed before each step. */
 #include "example.h"
 #include "sim/soft_block.h"
 
@@ -36,7 +36,8 @@ static void move_jaws(grasper* g, double opening, double height, const char* wha
         for (int side = 0; side < 2; ++side) held[side] += found.data[i].body_b == g->jaws[side];
     vox_sim_energy block;
     must(vox_sim_get_energy(g->sim, g->block, &block));
-    printf("%-8s the block is at height %.2f, in the left jaw %2" PRIu64 " vertices, in the right %2" PRIu64 "\n",
+    printf("%-8s the block is at height %.2f, in the left jaw %2" PRIu64 " vertices, in the right %2" PRIu64
+           "\n",
            what, block.centre[2], held[0], held[1]);
 }
 

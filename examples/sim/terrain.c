@@ -1,5 +1,5 @@
-/* Terrain: soft blocks fall onto a heightfield with two valleys and a ridge between them, slide down and come to
- * rest. The ground is one shape of a few numbers; it has no vertices and no tetrahedra. */
+/* Terrain: soft blocks fall onto a heightfield with two valleys and a ridge between them, slide down and come
+ * to rest. The ground is one shape of a few numbers; it has no vertices and no tetrahedra. */
 #include "example.h"
 #include "sim/soft_block.h"
 
@@ -47,7 +47,8 @@ int main(void) {
     for (int b = 0; b < blocks; ++b) {
         vox_sim_energy block;
         must(vox_sim_get_energy(sim, ids[b], &block));
-        printf("fell at x = %4.1f, rests in the %s valley\n", fall_at[b], block.centre[0] < 0 ? "left" : "right");
+        printf("fell at x = %4.1f, rests in the %s valley\n", fall_at[b],
+               block.centre[0] < 0 ? "left" : "right");
     }
     vox_constraint_view found;
     must(vox_grid_get_constraints(grid, &found));
@@ -60,8 +61,8 @@ int main(void) {
     }
     vox_sim_energy all;
     must(vox_sim_get_energy(sim, VOX_NULL_BODY, &all));
-    printf("%" PRIu64 " vertices lie on the ground, none deeper than %.3f; the fastest moves at %.2f\n", count, deepest,
-           all.max_speed);
+    printf("%" PRIu64 " vertices lie on the ground, none deeper than %.3f; the fastest moves at %.2f\n",
+           count, deepest, all.max_speed);
     vox_sim_destroy(sim);
     return 0;
 }

@@ -9,7 +9,7 @@
 
 namespace vox::sim {
 
-struct Placement {
+struct ShapePlace {
     Eigen::Matrix3d axes; // a rotation times a scale
     Vec3 place;
 };
@@ -17,11 +17,11 @@ struct Placement {
 struct MovingShape {
     vox_body id;
     bool moves;
-    Placement from, to;
-    Placement now, next; // at the beginning and the end of the substep
-    double target[12];   // `to` as the caller set it
+    ShapePlace from, to;
+    ShapePlace now, next; // at the beginning and the end of the substep
+    double target[12];    // `to` as the caller set it
 
-    Placement at(double part) const; // of the step, from 0 to 1
+    ShapePlace at(double part) const; // of the step, from 0 to 1
 };
 
 class Shapes {
