@@ -12,7 +12,7 @@ namespace {
 
 using Matrix34 = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
 
-void place(vox_grid* grid, vox_body id, const ShapePlace& at) {
+void place(vox_grid* grid, vox_body id, const Placed& at) {
     Matrix34 matrix;
     matrix << at.axes, at.place;
     check(vox_body_set_transform(grid, id, matrix.data()));
@@ -27,7 +27,7 @@ const MovingShape* find(std::span<const MovingShape> shapes, vox_body id) {
 
 // Rotations by the shorter way, through a chord of the quaternions: roots are the same on every machine, and
 // sines are not.
-ShapePlace MovingShape::at(double part) const {
+Placed MovingShape::at(double part) const {
     if (part == 0) return from;
     if (part == 1) return to;
     const double scales[2] = {from.axes.col(0).norm(), to.axes.col(0).norm()};
@@ -86,7 +86,7 @@ void Shapes::end_step(vox_grid* grid, double part) noexcept {
 Vec3 Shapes::motion(vox_body id, const Vec3& p) const {
     const MovingShape* shape = find(shapes_, id);
     if (!shape || !shape->moves) return Vec3::Zero();
-    const ShapePlace &now = shape->now, &next = shape->next;
+    const Placed &now = shape->now, &next = shape->next;
     const Vec3 in_frame = now.axes.transpose() * (p - now.place) / now.axes.col(0).squaredNorm();
     return next.axes * in_frame + next.place - p;
 }

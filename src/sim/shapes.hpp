@@ -9,7 +9,7 @@
 
 namespace vox::sim {
 
-struct ShapePlace {
+struct Placed {
     Eigen::Matrix3d axes; // a rotation times a scale
     Vec3 place;
 };
@@ -17,11 +17,11 @@ struct ShapePlace {
 struct MovingShape {
     vox_body id;
     bool moves;
-    ShapePlace from, to;
-    ShapePlace now, next; // at the beginning and the end of the substep
-    double target[12];    // `to` as the caller set it
+    Placed from, to;
+    Placed now, next;  // at the beginning and the end of the substep
+    double target[12]; // `to` as the caller set it
 
-    ShapePlace at(double part) const; // of the step, from 0 to 1
+    Placed at(double part) const; // of the step, from 0 to 1
 };
 
 class Shapes {
