@@ -11,6 +11,7 @@
 #include "terminal.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <functional>
 #include <numeric>
@@ -36,12 +37,28 @@ std::string file_in_series(const std::string& out, std::size_t index) {
     return out.substr(0, out.size() - 4) + number;
 }
 
+std::uint64_t shape_count(const vox_grid* grid) {
+    std::uint64_t count = 0;
+    check(vox_grid_get_bodies(grid, nullptr, 0, &count));
+    std::vector<vox_body> bodies(count);
+    check(vox_grid_get_bodies(grid, bodies.data(), count, &count));
+    return static_cast<std::uint64_t>(std::ranges::count_if(bodies, [&](vox_body body) {
+        vox_body_info info{};
+        info.struct_size = sizeof info;
+        check(vox_body_get_info(grid, body, &info));
+        return info.shape != VOX_SHAPE_NONE;
+    }));
+}
+
 void print_replay(const ReplayOptions& options, const std::string& file, std::uint64_t epoch,
                   const vox_grid* grid) {
     const Counters counters = counters_of(grid);
     const auto count = [&](const char* name) { return llu(value_of(counters, name)); };
-    std::printf("%s: %llu meshes, %llu vertices, %llu tetrahedra, saved at epoch %llu\n", shown(file).c_str(),
-                count("bodies"), count("vertices"), count("tets"), llu(epoch));
+    const std::uint64_t shapes = shape_count(grid);
+    std::printf("%s: %llu meshes, ", shown(file).c_str(), count("bodies") - llu(shapes));
+    if (shapes > 0) std::printf("%llu %s, ", llu(shapes), shapes == 1 ? "shape" : "shapes");
+    std::printf("%llu vertices, %llu tetrahedra, saved at epoch %llu\n", count("vertices"), count("tets"),
+                llu(epoch));
     std::printf("%llu %s, hash %s, cell size %.9g, last of %u %s in %.3f ms\n", count("contacts"),
                 count("contacts") == 1 ? "contact" : "contacts", hexadecimal(hash_of(grid)).c_str(),
                 info_of(grid).cell_size, options.steps, options.steps == 1 ? "step" : "steps",

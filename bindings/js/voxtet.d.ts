@@ -97,7 +97,7 @@ export type Vector = ArrayLike<number>;
 /** 64 bits: a bigint, or a whole number below 2 ** 53. */
 export type Bits = bigint | number;
 /** A mesh, or its id; null: none. */
-export type MeshOrId = Mesh | number;
+export type BodyOrId = Body | number;
 
 /**
  * Records in a copy of their own: nothing that the grid does later changes them. Besides `at` and iteration, which make an
@@ -156,7 +156,7 @@ export interface FilterOptions extends Partial<Omit<Filter, "category" | "mask">
 }
 
 export interface MeshOptions {
-  /** Copied: `Mesh.positions` moves them. */
+  /** Copied: `Body.positions` moves them. */
   positions: Positions;
   /** Four vertices each, copied. Without any, the vertices alone collide. */
   tets?: Indices;
@@ -249,9 +249,9 @@ export type TuneOptions = Partial<TuneDesc> & { grid?: ForeignGridOptions };
 /** Which constraints to find; by default all, with consistent depth. */
 export interface ConstraintOptions extends Partial<Pick<ConstraintDesc, "method" | "closestBudget">> {
   /** Only pairs of this mesh, */
-  bodyA?: MeshOrId;
+  bodyA?: BodyOrId;
   /** and this one. */
-  bodyB?: MeshOrId;
+  bodyB?: BodyOrId;
   /** Only pairs in which the category of a mesh has a bit in common; 0: all. */
   mask?: Bits;
 }
@@ -261,7 +261,7 @@ export interface QueryOptions extends Partial<Pick<QueryDesc, "flags" | "maxDist
   /** Only meshes whose filter's category had a bit in common; 0: all. */
   mask?: Bits;
   /** Not this mesh. */
-  excluded?: MeshOrId;
+  excluded?: BodyOrId;
 }
 
 /** In the memory of the module, until dispose(): what is forgotten instead is returned at some time after it was collected. */
@@ -282,7 +282,7 @@ export interface Locator extends Owned {
   /** Grid.epoch when they were taken. */
   readonly epoch: number;
   /** The number that a mesh was added with. */
-  userData(mesh: MeshOrId): bigint;
+  userData(mesh: BodyOrId): bigint;
   /** Where points are, and the weights that interpolate a field there; outside, of the closest point, or with
    * QueryFlags.EXTRAPOLATE of the point itself. Record i is that of point i. */
   locate(points: Positions, options?: QueryOptions): Locations;
@@ -322,19 +322,19 @@ export interface Grid extends Owned {
   flags: number;
 
   /** Adds a mesh. Its arrays are copied. */
-  add(mesh: MeshOptions): Mesh;
+  add(mesh: MeshOptions): Body;
   /**
    * Adds a rigid shape, which takes part from the next step on. The vertices of meshes collide with it. Its
    * constraints have vertices of `bodyA` alone. What it returns is good wherever a shape has what a mesh has: transform,
    * filter, user data, whether it is enabled; its `info.shape` is a ShapeKind. May change in any release.
    */
-  addShape(shape: ShapeOptions): Mesh;
-  /** The mesh of an id, as results have it. Whether there is one shows when it is used. */
-  mesh(id: number): Mesh;
+  addShape(shape: ShapeOptions): Body;
+  /** The body of an id, as results have it. Whether there is one shows when it is used. */
+  body(id: number): Body;
   /** All meshes and shapes, in the order of their ids. */
-  readonly meshes: Mesh[];
-  /** Whether two meshes collide, if their filters let them. */
-  setPairEnabled(bodyA: MeshOrId, bodyB: MeshOrId, enabled: boolean): void;
+  readonly bodies: Body[];
+  /** Whether two bodies collide, if their filters let them. */
+  setPairEnabled(bodyA: BodyOrId, bodyB: BodyOrId, enabled: boolean): void;
 
   /** Finds all contacts of the positions as they are now. */
   step(): void;
@@ -368,8 +368,8 @@ export interface Grid extends Owned {
   suggestCellSize(options?: SuggestOptions): CellSizeResult;
 }
 
-/** A mesh or a shape of a grid. It is a name: the grid owns what it names, and a removed mesh is an error when it is used. */
-export interface Mesh {
+/** A mesh or a shape of a grid. It is a name: the grid owns what it names, and a removed body is an error when it is used. */
+export interface Body {
   readonly id: number;
   readonly grid: Grid;
   readonly valid: boolean;
@@ -400,7 +400,7 @@ export interface Mesh {
   /** Of a shape: where it was, as in `setTransform`. In the following steps it moves from there, and they also find
    * constraints of ConstraintKind.IMPACT with it. Null ends this. May change in any release. */
   setPreviousTransform(matrix: Vector | null): void;
-  /** What the mesh collides with. Of an assignment, what is missing becomes the default. */
+  /** What the body collides with. Of an assignment, what is missing becomes the default. */
   get filter(): Filter;
   set filter(filter: FilterOptions);
   /** Whether the mesh takes part in steps. */

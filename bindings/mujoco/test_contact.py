@@ -238,6 +238,62 @@ class Excluded(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "vox.contact: exclude has.*" + pattern):
                 overlapping(exclude=text)
 
+class Geoms(unittest.TestCase):
+    def world(self, geom, *more, position="0 0 .15", assets="", **config):
+        """A flex above a geom, which MuJoCo does not collide with it."""
+        return mujoco.MjModel.from_xml_string(f"""<mujoco><option timestep="0.002" integrator="discrete" solver="CG" tolerance="1e-6"/>
+            <extension><plugin plugin="vox.contact"><instance name="contact"><config key="geoms" value="{config.get('geoms', 'g')}"/>
+            </instance></plugin></extension><asset>{assets}</asset><worldbody>{geom}{flex("soft", position)}{"".join(more)}</worldbody>
+            <sensor><plugin name="found" plugin="vox.contact" instance="contact"/></sensor></mujoco>""")
+
+    def test_a_flex_rests_on_each_kind(self):
+        pad = 'contype="0" conaffinity="0" friction="1 0 0"'
+        assets = """<hfield name="h" nrow="3" ncol="3" size=".5 .4 .1 .1" elevation="0 0 0 0 0 0 0 0 1"/>
+            <mesh name="m" vertex="-1 -1 -1  1 -1 -1  -1 1 -1  1 1 -1  -1 -1 0  1 -1 0  -1 1 0  1 1 0"
+              face="0 2 1  1 2 3  4 5 6  5 7 6  0 1 4  1 5 4  2 6 3  3 6 7  0 4 2  2 4 6  1 3 5  3 7 5"/>"""
+        # Of each kind its height at the top.
+        for geom, top in ((f'<geom name="g" type="plane" size="1 1 .1" {pad}/>', 0),
+                          (f'<geom name="g" type="sphere" size=".8" pos="0 0 -.8" {pad}/>', 0),
+                          (f'<geom name="g" type="capsule" size=".5 1" euler="90 0 0" pos="0 0 -.5" {pad}/>', 0),
+                          (f'<geom name="g" type="cylinder" size=".6 .2" pos="0 0 -.2" {pad}/>', 0),
+                          (f'<geom name="g" type="box" size=".5 .5 .2" pos="0 0 -.2" {pad}/>', 0),
+                          (f'<geom name="g" type="hfield" hfield="h" {pad}/>', 0),
+                          (f'<geom name="g" type="mesh" mesh="m" {pad}/>', 0)):
+            m = self.world(geom, assets=assets)
+            d = mujoco.MjData(m)
+            for _ in range(500):
+                mujoco.mj_step(m, d)
+            count, depth = d.sensor("found").data
+            self.assertGreater(count, 0, geom)
+            self.assertLess(depth, 0.05 * SIDE, geom)
+            self.assertAlmostEqual(d.flexvert_xpos[:, 2].mean(), top + SIDE / 2, delta=0.25 * SIDE, msg=geom)
+
+    def test_force_and_torque_on_the_body_of_a_geom_are_opposite(self):
+        m = self.world('<body name="tool" pos="0 0 .42"><freejoint/>'
+                       '<geom name="g" type="box" size=".15 .15 .1" pos=".1 .03 0" mass="1" contype="0" conaffinity="0"/></body>', position="0 0 .23")
+        d = mujoco.MjData(m)
+        mujoco.mj_forward(m, d)
+        with_plugin = d.qfrc_passive.copy()
+        m.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONTACT
+        mujoco.mj_forward(m, d)
+        change = with_plugin - d.qfrc_passive
+        tool = m.body("tool")
+        free = m.jnt_dofadr[tool.jntadr[0]]
+        force, torque = change[free:free + 3], d.xmat[tool.id].reshape(3, 3) @ change[free + 3:free + 6]
+        sliders = np.delete(change, np.s_[free:free + 6]).reshape(-1, 3)
+        self.assertGreater(force[2], 0)
+        self.assertLess(abs(sliders.sum(axis=0) + force).max(), 1e-10 * force[2])
+        angular = np.cross(d.flexvert_xpos - d.xpos[tool.id], sliders).sum(axis=0) + torque
+        self.assertLess(abs(angular).max(), 1e-6 * force[2])
+
+    def test_mistakes(self):
+        pad = 'contype="0" conaffinity="0"'
+        for geom, names, pattern in ((f'<geom name="g" size=".1" {pad}/>', "g h", 'geoms names "h", but no geom'),
+                                     (f'<geom name="g" type="ellipsoid" size=".1 .1 .2" {pad}/>', "g", "is an ellipsoid"),
+                                     ('<geom name="g" size=".1"/>', "g", 'MuJoCo collides geom "g" with flex 0 "soft", too')):
+            with self.assertRaisesRegex(ValueError, pattern):
+                self.world(geom, geoms=names)
+
 
 class Contacts(unittest.TestCase):
     def write(self, m, d, flex_id, name):

@@ -1,4 +1,5 @@
-// The MuJoCo plugin vox.contact: penetrations between flexes of tetrahedra, and passive forces that end them.
+// The MuJoCo plugin vox.contact: penetrations between flexes of tetrahedra and of geoms, and passive forces
+// that end them.
 #include "vox_mujoco.h"
 
 #include <algorithm>
@@ -52,26 +53,12 @@ constexpr std::array<Key, 6> keys = {{
     {"workers", &Settings::workers, 0, VOX_MAX_WORKERS, Kind::whole},
 }};
 constexpr const char* flexes_key = "flexes";
+constexpr const char* geoms_key = "geoms";
 constexpr const char* exclude_key = "exclude";
 
 struct GridDeleter {
     void operator()(vox_grid* grid) const { vox_grid_destroy(grid); }
 };
-
-struct Vector {
-    double x = 0, y = 0, z = 0;
-};
-Vector operator+(Vector a, Vector b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-Vector operator-(Vector a, Vector b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-Vector operator*(double s, Vector a) { return {s * a.x, s * a.y, s * a.z}; }
-double dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Vector cross(Vector a, Vector b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-template <typename Number>
-Vector vector(const Number* v) {
-    return {v[0], v[1], v[2]};
-}
 
 // A body that moves a vertex with this weight: its own, or that of a node which it is interpolated from.
 struct Carrier {
@@ -80,27 +67,20 @@ struct Carrier {
     double weight;
 };
 
-// What a step gathers of a vertex that constraints touch.
-struct Touched {
-    double load = 0;         // sum of the weights by which constraints move it
-    double inverse_mass = 0; // of a unit weight, see `respond`
-    Vector velocity, force;
-};
-
 // An instance in one mjData. Nothing of the mjModel is kept, as it may be freed first.
 struct Instance {
     std::unique_ptr<vox_grid, GridDeleter> grid;
     Settings settings;
     std::vector<int> flexes;             // ids of those that take part, ascending
     std::vector<vox_body> meshes;        // of each of them, ascending; empty until there are positions
+    std::vector<int> geoms;              // that are shapes
+    std::vector<vox_body> shapes;        // of each of them
     const mjtNum* positions = nullptr;   // d->flexvert_xpos, as bound
     std::vector<uint32_t> first_carrier; // of each vertex of the model, and of one past the last
     std::vector<Carrier> carriers;
     std::vector<uint8_t> excluded; // of each element of the model: takes no part
     std::vector<uint8_t> silent;   // of each vertex: all of its elements are excluded
-    std::vector<Touched> vertices; // of each vertex; as it is made where `touched` does not have it
-    std::vector<int> touched;
-    std::vector<double> load; // of each body: sum of the weights by which penetrations move it; else 0
+    std::vector<double> load;      // of each body: sum of the weights by which penetrations move it; else 0
     std::string failure; // text of the last step's error, so that it is reported once; "" if it succeeded
     double penetrations = 0;
     double greatest_depth = 0;
@@ -181,6 +161,28 @@ std::vector<int> read_flexes(const mjModel* m, int instance) {
     return flexes;
 }
 
+// The geoms that are named. MuJoCo must not collide them with the flexes, too.
+std::vector<int> read_geoms(const mjModel* m, int instance, const std::vector<int>& flexes) {
+    std::vector<int> geoms;
+    std::istringstream names(config(m, instance, geoms_key));
+    for (std::string name; names >> name;) {
+        const int geom = mj_name2id(m, mjOBJ_GEOM, name.c_str());
+        if (geom < 0) fail("%s names \"%.100s\", but no geom of the model", geoms_key, name.c_str());
+        if (m->geom_type[geom] == mjGEOM_ELLIPSOID || m->geom_type[geom] == mjGEOM_SDF)
+            fail("geom \"%.100s\" is an ellipsoid or an sdf, which cannot take part", name.c_str());
+        for (const int flex : flexes)
+            if ((m->geom_contype[geom] & m->flex_conaffinity[flex]) ||
+                (m->flex_contype[flex] & m->geom_conaffinity[geom]))
+                fail("MuJoCo collides geom \"%.100s\" with flex %d \"%.100s\", too: their contype and "
+                     "conaffinity have a bit in common",
+                     name.c_str(), flex, flex_name(m, flex));
+        geoms.push_back(geom);
+    }
+    std::sort(geoms.begin(), geoms.end());
+    geoms.erase(std::unique(geoms.begin(), geoms.end()), geoms.end());
+    return geoms;
+}
+
 // Marks the elements that `exclude` names: "flex:3 flex:10-19".
 void read_excluded(Instance& instance, const mjModel* m, int id) {
     std::istringstream parts(config(m, id, exclude_key));
@@ -259,10 +261,9 @@ std::unique_ptr<Instance> make_instance(const mjModel* m, int id) {
     auto instance = std::make_unique<Instance>();
     instance->settings = read_settings(m, id);
     instance->flexes = read_flexes(m, id);
+    instance->geoms = read_geoms(m, id, instance->flexes);
     instance->meshes.reserve(instance->flexes.size());
     instance->load.resize(static_cast<size_t>(m->nbody));
-    instance->vertices.resize(static_cast<size_t>(m->nflexvert));
-    instance->touched.reserve(static_cast<size_t>(m->nflexvert));
     instance->excluded.resize(static_cast<size_t>(m->nflexelem));
     instance->silent.assign(static_cast<size_t>(m->nflexvert), 1);
     read_excluded(*instance, m, id);
@@ -286,8 +287,104 @@ vox_positions flex_positions(const mjModel* m, const mjData* d, int flex) {
     return positions;
 }
 
-// Gives the grid its meshes. This is done before the first step, not in `init`: tiles are made by the
-// positions at insertion, and mjData has none before kinematics.
+vox_positions mesh_positions(const mjModel* m, int mesh) {
+    return vox_float_positions(m->mesh_vert + 3 * static_cast<ptrdiff_t>(m->mesh_vertadr[mesh]),
+                               static_cast<uint64_t>(m->mesh_vertnum[mesh]));
+}
+
+// Where a terrain's lowest corner is in the frame of its geom.
+struct Corner {
+    double x = 0, y = 0;
+};
+
+Corner corner_of(const mjModel* m, int geom) {
+    if (m->geom_type[geom] != mjGEOM_HFIELD) return {};
+    const mjtNum* size = m->hfield_size + 4 * static_cast<ptrdiff_t>(m->geom_dataid[geom]);
+    return {-size[0], -size[1]};
+}
+
+vox_body insert_shape(vox_grid* grid, const mjModel* m, int geom) {
+    const mjtNum* size = m->geom_size + 3 * static_cast<ptrdiff_t>(geom);
+    const int data = m->geom_dataid[geom];
+    vox_shape_desc desc = vox_default_shape_desc();
+    desc.user_data = static_cast<uint64_t>(geom);
+    desc.radius = size[0];
+    desc.half_length = size[1];
+    std::vector<double> heights;
+    switch (m->geom_type[geom]) {
+    case mjGEOM_PLANE:
+        desc.kind = VOX_SHAPE_HALF_SPACE;
+        break;
+    case mjGEOM_SPHERE:
+        desc.kind = VOX_SHAPE_SPHERE;
+        break;
+    case mjGEOM_CAPSULE:
+        desc.kind = VOX_SHAPE_CAPSULE;
+        break;
+    case mjGEOM_CYLINDER:
+        desc.kind = VOX_SHAPE_CYLINDER;
+        break;
+    case mjGEOM_BOX:
+        desc.kind = VOX_SHAPE_BOX;
+        std::copy(size, size + 3, desc.half_size);
+        break;
+    case mjGEOM_HFIELD: {
+        const mjtNum* extent = m->hfield_size + 4 * static_cast<ptrdiff_t>(data);
+        desc.kind = VOX_SHAPE_HEIGHTFIELD;
+        desc.columns = static_cast<uint32_t>(m->hfield_ncol[data]);
+        desc.rows = static_cast<uint32_t>(m->hfield_nrow[data]);
+        desc.spacing[0] = 2 * extent[0] / (desc.columns - 1);
+        desc.spacing[1] = 2 * extent[1] / (desc.rows - 1);
+        const float* from = m->hfield_data + m->hfield_adr[data];
+        heights.assign(from, from + static_cast<ptrdiff_t>(desc.columns) * desc.rows);
+        for (double& height : heights) height *= extent[2];
+        desc.heights = heights.data();
+        break;
+    }
+    default: // a mesh
+        desc.kind = VOX_SHAPE_SOLID;
+        desc.positions = mesh_positions(m, data);
+        desc.triangles = reinterpret_cast<const uint32_t*>(
+            m->mesh_face + 3 * static_cast<ptrdiff_t>(m->mesh_faceadr[data])); // none is negative
+        desc.triangle_count = static_cast<uint64_t>(m->mesh_facenum[data]);
+    }
+    vox_body shape = VOX_NULL_BODY;
+    check(vox_shape_insert(grid, &desc, &shape));
+    return shape;
+}
+
+void place_shapes(const Instance& instance, const mjModel* m, const mjData* d) {
+    for (size_t i = 0; i < instance.geoms.size(); ++i) {
+        const int geom = instance.geoms[i];
+        const mjtNum *p = d->geom_xpos + 3 * static_cast<ptrdiff_t>(geom),
+                     *r = d->geom_xmat + 9 * static_cast<ptrdiff_t>(geom);
+        const Corner corner = corner_of(m, geom);
+        double matrix[12];
+        for (size_t row = 0; row < 3; ++row) {
+            std::copy(r + 3 * row, r + 3 * row + 3, matrix + 4 * row);
+            matrix[4 * row + 3] = p[row] + r[3 * row] * corner.x + r[3 * row + 1] * corner.y;
+        }
+        check(vox_body_set_transform(instance.grid.get(), instance.shapes[i], matrix));
+    }
+}
+
+// A geom does not collide with a flex that is a part of the same body.
+void insert_shapes(Instance& instance, const mjModel* m) {
+    instance.shapes.clear();
+    for (const int geom : instance.geoms) {
+        instance.shapes.push_back(insert_shape(instance.grid.get(), m, geom));
+        for (size_t i = 0; i < instance.flexes.size(); ++i) {
+            const int* bodies = m->flex_vertbodyid + m->flex_vertadr[instance.flexes[i]];
+            if (std::all_of(bodies, bodies + m->flex_vertnum[instance.flexes[i]],
+                            [&](int body) { return body == m->geom_bodyid[geom]; }))
+                check(vox_grid_set_pair_enabled(instance.grid.get(), instance.meshes[i],
+                                                instance.shapes.back(), 0));
+        }
+    }
+}
+
+// Gives the grid its meshes and shapes. This is done before the first step, not in `init`: tiles are made by
+// the positions at insertion, and mjData has none before kinematics.
 void insert_meshes(Instance& instance, const mjModel* m, const mjData* d) {
     check(vox_grid_clear(instance.grid.get()));
     instance.meshes.clear();
@@ -306,11 +403,12 @@ void insert_meshes(Instance& instance, const mjModel* m, const mjData* d) {
         check(vox_mesh_insert(instance.grid.get(), &desc, &mesh));
         instance.meshes.push_back(mesh);
     }
+    insert_shapes(instance, m);
     instance.positions = d->flexvert_xpos;
 }
 
 void find_penetrations(Instance& instance, const mjModel* m, const mjData* d) {
-    if (instance.meshes.size() != instance.flexes.size()) {
+    if (instance.meshes.size() != instance.flexes.size() || instance.shapes.size() != instance.geoms.size()) {
         insert_meshes(instance, m, d);
     } else if (instance.positions != d->flexvert_xpos) {
         for (size_t i = 0; i < instance.flexes.size(); ++i) {
@@ -319,35 +417,58 @@ void find_penetrations(Instance& instance, const mjModel* m, const mjData* d) {
         }
         instance.positions = d->flexvert_xpos;
     }
+    place_shapes(instance, m, d);
     check(vox_grid_step(instance.grid.get()));
 }
 
-// From the point that spatial vectors of a body refer to, the centre of mass of its tree, to where it carries
-// a vertex.
-Vector lever(const mjModel* m, const mjData* d, int vertex, const Carrier& carrier) {
-    const ptrdiff_t body = carrier.body;
-    Vector point = vector(d->flexvert_xpos + 3 * static_cast<ptrdiff_t>(vertex));
-    if (carrier.node >= 0) {
-        const Vector local = vector(m->flex_node + 3 * static_cast<ptrdiff_t>(carrier.node));
-        const mjtNum* row = d->xmat + 9 * body;
-        point = vector(d->xpos + 3 * body) +
-                Vector{dot(vector(row), local), dot(vector(row + 3), local), dot(vector(row + 6), local)};
-    }
-    return point - vector(d->subtree_com + 3 * static_cast<ptrdiff_t>(m->body_rootid[body]));
+struct Vector {
+    double x = 0, y = 0, z = 0;
+};
+Vector operator+(Vector a, Vector b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+Vector operator-(Vector a, Vector b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+Vector operator*(double s, Vector a) { return {s * a.x, s * a.y, s * a.z}; }
+double dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Vector cross(Vector a, Vector b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <typename Number>
+Vector vector(const Number* v) {
+    return {v[0], v[1], v[2]};
 }
 
-Vector velocity(const mjModel* m, const mjData* d, int vertex, const Carrier& carrier) {
-    const mjtNum* v = d->cvel + 6 * static_cast<ptrdiff_t>(carrier.body);
-    return vector(v + 3) + cross(vector(v), lever(m, d, vertex, carrier));
+// A vertex of a flex, a node that carries one, or a point of a geom, with the weight that it has in a
+// penetration.
+struct Point {
+    int body;
+    double weight;
+    Vector at;
+};
+
+// From the point that spatial vectors of a body refer to, the centre of mass of its tree.
+Vector lever(const mjModel* m, const mjData* d, const Point& point) {
+    return point.at - vector(d->subtree_com + 3 * static_cast<ptrdiff_t>(m->body_rootid[point.body]));
 }
 
-// Adds a force on a vertex to qfrc_passive. As mj_applyFT, but without its Jacobian of 3 rows and nv columns:
-// only the dofs between the body and the world are visited, which are 3 for a vertex of its own.
-void apply(const mjModel* m, mjData* d, int vertex, const Carrier& carrier, Vector force) {
-    int body = carrier.body;
+Vector velocity(const mjModel* m, const mjData* d, const Point& point) {
+    const mjtNum* v = d->cvel + 6 * static_cast<ptrdiff_t>(point.body);
+    return vector(v + 3) + cross(vector(v), lever(m, d, point));
+}
+
+// At most how fast a unit of force at the point moves it, per time.
+double inverse_mass(const mjModel* m, const mjData* d, const Point& point) {
+    const mjtNum* inverse = m->body_invweight0 + 2 * static_cast<ptrdiff_t>(point.body);
+    if (inverse[1] == 0) return inverse[0];
+    const Vector arm = point.at - vector(d->xipos + 3 * static_cast<ptrdiff_t>(point.body));
+    return inverse[0] + inverse[1] * dot(arm, arm);
+}
+
+// Adds a force on a point to qfrc_passive. As mj_applyFT, but without its Jacobian of 3 rows and nv columns:
+// only the dofs between its body and the world are visited, which are 3 for a vertex of its own.
+void apply(const mjModel* m, mjData* d, const Point& point, Vector force) {
+    int body = point.body;
     if (d->body_awake[body] == mjS_ASLEEP)
         return; // passive forces of sleeping bodies are not set to 0 in a step
-    const Vector torque = cross(lever(m, d, vertex, carrier), force);
+    const Vector torque = cross(lever(m, d, point), force);
     while (body > 0 && m->body_dofnum[body] == 0) body = m->body_parentid[body];
     if (body == 0) return;
     for (int dof = m->body_dofadr[body] + m->body_dofnum[body] - 1; dof >= 0; dof = m->dof_parentid[dof]) {
@@ -356,45 +477,39 @@ void apply(const mjModel* m, mjData* d, int vertex, const Carrier& carrier, Vect
     }
 }
 
+bool with_geom(const vox_constraint& c) { return c.count == c.count_a; }
+
 int vertex_of(const mjModel* m, const vox_constraint& c, size_t i) {
     const auto flex = static_cast<size_t>(i < c.count_a ? c.user_data_a : c.user_data_b);
     return m->flex_vertadr[flex] + static_cast<int>(c.vertices[i]);
 }
 
 bool is_excluded(const Instance& instance, const mjModel* m, const vox_constraint& c) {
-    const auto element = static_cast<size_t>(m->flex_elemadr[c.user_data_b]) + c.element_b;
-    return instance.excluded[element] || instance.silent[static_cast<size_t>(vertex_of(m, c, 0))];
+    if (instance.silent[static_cast<size_t>(vertex_of(m, c, 0))]) return true;
+    return !with_geom(c) &&
+           instance.excluded[static_cast<size_t>(m->flex_elemadr[c.user_data_b]) + c.element_b];
 }
 
-// Visits each carrier of each vertex that constraints touch.
+Vector node_position(const mjModel* m, const mjData* d, const Carrier& carrier) {
+    const ptrdiff_t body = carrier.body;
+    const Vector local = vector(m->flex_node + 3 * static_cast<ptrdiff_t>(carrier.node));
+    const mjtNum* row = d->xmat + 9 * body;
+    return vector(d->xpos + 3 * body) +
+           Vector{dot(vector(row), local), dot(vector(row + 3), local), dot(vector(row + 6), local)};
+}
+
+// Visits what a penetration moves: what carries its vertices, and with a geom the place on that.
 template <typename Visit>
-void each_carrier(Instance& instance, const Visit& visit) {
-    for (const int vertex : instance.touched)
+void each_point(const Instance& instance, const mjModel* m, const mjData* d, const vox_constraint& c,
+                const Visit& visit) {
+    for (size_t i = 0; i < c.count; ++i) {
+        const int vertex = vertex_of(m, c, i);
         for (const Carrier& carrier : instance.carriers_of(vertex))
-            visit(vertex, instance.vertices[static_cast<size_t>(vertex)], carrier,
-                  instance.load[static_cast<size_t>(carrier.body)]);
-}
-
-// Gathers what `respond` needs of the vertices that constraints touch.
-void touch(Instance& instance, std::span<const vox_constraint> constraints, const mjModel* m,
-           const mjData* d) {
-    for (const vox_constraint& c : constraints) {
-        if (is_excluded(instance, m, c)) continue;
-        for (size_t i = 0; i < c.count; ++i) {
-            const int vertex = vertex_of(m, c, i);
-            Touched& at = instance.vertices[static_cast<size_t>(vertex)];
-            if (at.load == 0 && c.weights[i] != 0) instance.touched.push_back(vertex);
-            at.load += std::abs(c.weights[i]);
-        }
+            visit(Point{carrier.body, c.weights[i] * carrier.weight,
+                        carrier.node < 0 ? vector(d->flexvert_xpos + 3 * static_cast<ptrdiff_t>(vertex))
+                                         : node_position(m, d, carrier)});
     }
-    each_carrier(instance, [](int, Touched& at, const Carrier& carrier, double& load) {
-        load += at.load * std::abs(carrier.weight);
-    });
-    each_carrier(instance, [&](int vertex, Touched& at, const Carrier& carrier, double load) {
-        at.inverse_mass += std::abs(carrier.weight) * load * m->body_invweight0[2 * carrier.body];
-        at.velocity = at.velocity + carrier.weight * velocity(m, d, vertex, carrier);
-    });
-    each_carrier(instance, [](int, Touched&, const Carrier&, double& load) { load = 0; });
+    if (with_geom(c)) visit(Point{m->geom_bodyid[c.user_data_b], -1, vector(c.position)});
 }
 
 // Forces that end the penetrations: a spring and a damper along each direction, and friction across it.
@@ -410,30 +525,31 @@ void respond(Instance& instance, const mjModel* m, mjData* d) {
     vox_constraint_view view{};
     check(vox_grid_get_constraints(instance.grid.get(), &view));
     const std::span constraints(view.data, static_cast<size_t>(view.count));
-    touch(instance, constraints, m, d);
+    const auto load = [&](const Point& p) -> double& { return instance.load[static_cast<size_t>(p.body)]; };
+    for (const vox_constraint& c : constraints)
+        if (!is_excluded(instance, m, c))
+            each_point(instance, m, d, c, [&](const Point& p) { load(p) += std::abs(p.weight); });
 
     const Settings& settings = instance.settings;
     const double timeconst = std::max(settings.timeconst, least_timesteps * m->opt.timestep);
     for (const vox_constraint& c : constraints) {
         if (is_excluded(instance, m, c)) continue;
-        const auto touched = [&](size_t i) -> Touched& {
-            return instance.vertices[static_cast<size_t>(vertex_of(m, c, i))];
-        };
         ++instance.penetrations;
         instance.greatest_depth = std::max(instance.greatest_depth, -c.gap);
-        double inverse_mass = 0;
-        Vector speed; // of the vertex, as seen from the tetrahedron
-        for (size_t i = 0; i < c.count; ++i) {
-            inverse_mass += std::abs(c.weights[i]) * touched(i).inverse_mass;
-            speed = speed + c.weights[i] * touched(i).velocity;
-        }
-        if (!(inverse_mass > 0)) continue; // nothing that could move
-        const double mass = 1 / inverse_mass;
+        double inverse = 0;
+        Vector speed; // of the vertex, as seen from the tetrahedron or the geom
+        each_point(instance, m, d, c, [&](const Point& p) {
+            inverse += std::abs(p.weight) * load(p) * inverse_mass(m, d, p);
+            speed = speed + p.weight * velocity(m, d, p);
+        });
+        if (!(inverse > 0)) continue; // nothing that could move
+        const double mass = 1 / inverse;
         const double stiffness =
             settings.stiffness >= 0 ? settings.stiffness : mass / (timeconst * timeconst);
         const double damping = settings.damping >= 0 ? settings.damping : 2 * std::sqrt(stiffness * mass);
-        const double friction = std::max(m->flex_friction[3 * c.user_data_a], // as MuJoCo combines two
-                                         m->flex_friction[3 * c.user_data_b]);
+        const double friction =
+            std::max(m->flex_friction[3 * c.user_data_a], // as MuJoCo combines two
+                     (with_geom(c) ? m->geom_friction : m->flex_friction)[3 * c.user_data_b]);
         const Vector normal = vector(c.normal);
         const double leaving = dot(speed, normal);
         const double pressure = std::max(0.0, -stiffness * c.gap - damping * leaving);
@@ -442,15 +558,10 @@ void respond(Instance& instance, const mjModel* m, mjData* d) {
         const double rate = std::sqrt(dot(sliding, sliding));
         const double drag = damping * rate > friction * pressure ? friction * pressure / rate : damping;
         const Vector force = pressure * normal - drag * sliding;
-        for (size_t i = 0; i < c.count; ++i) touched(i).force = touched(i).force + c.weights[i] * force;
+        each_point(instance, m, d, c, [&](const Point& p) { apply(m, d, p, p.weight * force); });
     }
-    for (const int vertex : instance.touched) {
-        Touched& touched = instance.vertices[static_cast<size_t>(vertex)];
-        for (const Carrier& carrier : instance.carriers_of(vertex))
-            apply(m, d, vertex, carrier, carrier.weight * touched.force);
-        touched = {};
-    }
-    instance.touched.clear();
+    for (const vox_constraint& c : constraints)
+        each_point(instance, m, d, c, [&](const Point& p) { load(p) = 0; });
 }
 
 Instance* get(const mjData* d, int instance) { return reinterpret_cast<Instance*>(d->plugin_data[instance]); }
@@ -532,9 +643,10 @@ mjPLUGIN_LIB_INIT(vox_contact) {
                     mj_version());
         return;
     }
-    std::array<const char*, keys.size() + 2> names{};
+    std::array<const char*, keys.size() + 3> names{};
     for (size_t i = 0; i < keys.size(); ++i) names[i] = keys[i].name;
     names[keys.size()] = flexes_key;
+    names[keys.size() + 1] = geoms_key;
     names.back() = exclude_key;
 
     mjpPlugin plugin;

@@ -64,7 +64,9 @@ VOX_API vox_result vox_sim_create(VOX_OPTIONAL const vox_sim_desc* desc, vox_sim
 /* Destroys a simulation with its bodies and its grid. Null does nothing. */
 VOX_API void vox_sim_destroy(VOX_OPTIONAL vox_sim* sim);
 
-/* Gets the grid inside, for reading results and for setting cell size and workers. It lives as long as the
+/* Gets the grid inside, for reading results, for setting cell size and workers, and for rigid shapes: those inserted
+ * there hold and push the bodies. A step moves a shape at constant speed from where it was in the step before to where
+ * vox_body_set_transform has placed it since; disable it for a step to let it jump. The grid lives as long as the
  * simulation. Do not destroy it, and do not edit, move or bind the bodies' meshes there. */
 VOX_API vox_result vox_sim_get_grid(const vox_sim* sim, vox_grid** out_grid);
 

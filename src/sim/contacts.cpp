@@ -55,14 +55,15 @@ Vec3 friction_impulse(const Vec3& moved, const Vec3& normal, double normal_impul
 // Throws INVALID_STATE if a constraint does not fit the bodies: it names a vertex that the body does not
 // have, or its gap differs. The caller may have cut a body, or bound other positions to it, through
 // vox_sim_get_grid.
-void check_contact(const SoftBody& a, const SoftBody& b, const vox_constraint& c) {
+void check_contact(const SoftBody& a, const SoftBody* b, const vox_constraint& c) {
     const auto changed = [&](const std::string& what) {
-        throw Error(VOX_ERROR_INVALID_STATE, format("%s or %s was changed through vox_sim_get_grid: %s",
-                                                    name_of(a).c_str(), name_of(b).c_str(), what.c_str()));
+        const std::string names = name_of(a) + (b ? " or " + name_of(*b) : "");
+        throw Error(VOX_ERROR_INVALID_STATE,
+                    format("%s was changed through vox_sim_get_grid: %s", names.c_str(), what.c_str()));
     };
-    double gap = c.offset, size = 0;
+    double gap = c.offset, size = 0, reach = 0;
     for (std::uint32_t i = 0; i < c.count; ++i) {
-        const SoftBody& body = i < c.count_a ? a : b;
+        const SoftBody& body = i < c.count_a ? a : *b;
         if (c.vertices[i] >= body.positions.size())
             changed(format("a constraint names vertex %u of %zu", c.vertices[i], body.positions.size()));
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -71,9 +72,10 @@ void check_contact(const SoftBody& a, const SoftBody& b, const vox_constraint& c
                                                    : double{body.grid_positions[3 * v + axis]};
             gap += c.weights[i] * c.normal[axis] * x;
             size = std::max(size, std::abs(x - c.position[axis]));
+            reach = std::max(reach, std::abs(x));
         }
     }
-    if (!(std::abs(gap - c.gap) <= size / 1000))
+    if (!(std::abs(gap - c.gap) <= size / 1000 + 1e-9 * reach))
         changed(format("the gap at vertex %u is %g instead of %g", c.vertices[0], gap, c.gap));
 }
 
@@ -84,7 +86,7 @@ SoftBody* find_body(std::span<const BodyHandle> bodies, vox_body mesh) {
     return found != bodies.end() && (*found)->mesh == mesh ? found->get() : nullptr;
 }
 
-void gather_contacts(const vox_grid* grid, std::span<const BodyHandle> bodies,
+void gather_contacts(const vox_grid* grid, std::span<const BodyHandle> bodies, const Shapes& shapes,
                      const ContactSettings& settings, Array<Contact>& contacts) {
     vox_constraint_view found{};
     contacts.clear();
@@ -93,31 +95,34 @@ void gather_contacts(const vox_grid* grid, std::span<const BodyHandle> bodies,
         Contact c{};
         c.a = find_body(bodies, from.body_a);
         c.b = find_body(bodies, from.body_b);
-        if (!c.a || !c.b || (c.a->fixed && c.b->fixed)) continue;
-        check_contact(*c.a, *c.b, from);
+        const bool with_shape = from.count == from.count_a;
+        if (!c.a || !(c.b || with_shape)) continue;
+        check_contact(*c.a, c.b, from);
         c.count_a = from.count_a;
         c.count = from.count;
         std::copy_n(from.vertices, from.count, c.vertices);
         std::copy_n(from.weights, from.count, c.weights);
         c.depth = -from.offset;
         c.direction = Vec3(from.normal[0], from.normal[1], from.normal[2]);
-        c.slop = settings.slop >= 0 ? settings.slop : (c.a->mean_edge + c.b->mean_edge) / 200;
+        c.motion = with_shape ? shapes.motion(from.body_b, Vec3(from.position)) : Vec3::Zero();
+        c.slop = settings.slop >= 0 ? settings.slop : (c.a->mean_edge + (c.b ? c.b : c.a)->mean_edge) / 200;
         for (std::uint32_t i = 0; i < c.count; ++i)
             c.inverse_mass += c.weights[i] * c.weights[i] * c.body(i).inverse_masses[c.vertices[i]];
         if (c.inverse_mass > 0) contacts.push_back(c);
     }
 }
 
-void solve_contacts(std::span<const Contact> contacts, const ContactSettings& settings, double h) {
+void solve_contacts(std::span<const Contact> contacts, std::uint32_t age, const ContactSettings& settings,
+                    double h) {
     for (const Contact& c : contacts) {
-        const Vec3 before = relative(c, &SoftBody::previous);
+        const Vec3 before = relative(c, &SoftBody::previous) - age * c.motion, gone = (age + 1) * c.motion;
         const double depth_before = c.depth - c.direction.dot(before);
-        const double depth = c.depth - c.direction.dot(relative(c, &SoftBody::positions));
+        const double depth = c.depth - c.direction.dot(relative(c, &SoftBody::positions) - gone);
         const Answer answer = answer_depth(depth, depth_before, c.slop, c.inverse_mass, settings, h);
         if (answer.whole == 0) continue;
         apply(c, &SoftBody::positions, answer.whole * c.direction);
         apply(c, &SoftBody::previous, answer.push * c.direction);
-        const Vec3 moved = relative(c, &SoftBody::positions) - before;
+        const Vec3 moved = relative(c, &SoftBody::positions) - gone - before;
         apply(c, &SoftBody::positions,
               friction_impulse(moved, c.direction, answer.whole - answer.push, c.inverse_mass,
                                settings.friction));

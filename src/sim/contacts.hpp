@@ -1,4 +1,5 @@
-// The response to contacts between bodies and with the floor in a substep: penalty forces and friction.
+// The response to contacts between bodies, with shapes and with the floor in a substep: penalty forces and
+// friction.
 //
 // The vertices of a constraint (vox_constraint) whose gap is negative are pushed along its normal, each in
 // proportion to its weight, with a force linear in the depth. The force is integrated implicitly, as an
@@ -10,20 +11,22 @@
 
 #include "base/array.hpp"
 #include "sim/body.hpp"
+#include "sim/shapes.hpp"
 
 #include <memory>
 #include <span>
 
 namespace vox::sim {
 
-// A point of body a and one of body b, which may be the same (vox_constraint).
+// A point of body a and one of body b, which may be the same (vox_constraint), or of a shape.
 struct Contact {
     SoftBody* a;
-    SoftBody* b;
+    SoftBody* b;                  // null: a shape, which has no vertices
     std::uint32_t count_a, count; // vertices of a, which come first, and of both
     std::uint32_t vertices[VOX_STENCIL_CAPACITY];
     double weights[VOX_STENCIL_CAPACITY];
     Vec3 direction; // out of b
+    Vec3 motion;    // of the shape in a substep
     double depth;   // where the two points coincide
     double slop;
     double inverse_mass; // for the relative motion of the two points
@@ -49,10 +52,12 @@ SoftBody* find_body(std::span<const BodyHandle> bodies, vox_body mesh);
 
 // Reads the constraints of the grid's last step, except those of meshes not in `bodies` and of pairs of fixed
 // bodies.
-void gather_contacts(const vox_grid* grid, std::span<const BodyHandle> bodies,
+void gather_contacts(const vox_grid* grid, std::span<const BodyHandle> bodies, const Shapes& shapes,
                      const ContactSettings& settings, Array<Contact>& contacts);
 
-void solve_contacts(std::span<const Contact> contacts, const ContactSettings& settings, double h);
+// `age`: how many substeps have ended since the contacts were found.
+void solve_contacts(std::span<const Contact> contacts, std::uint32_t age, const ContactSettings& settings,
+                    double h);
 
 // Returns how many particles the floor held.
 std::uint64_t solve_floor(SoftBody& body, const Floor& floor, const ContactSettings& settings, double h);

@@ -50,7 +50,7 @@ vox_sim::vox_sim(const vox_sim_desc& desc)
                         .compliance = check_number(desc.contact_compliance, "contact_compliance"),
                         .push_speed = check_number(desc.max_push_speed, "max_push_speed"),
                         .slop = desc.contact_slop},
-      floor_(floor_of(desc)), bodies_(&memory_), contacts_(&memory_) {
+      floor_(floor_of(desc)), bodies_(&memory_), contacts_(&memory_), shapes_(&memory_) {
     if (!(max_time_step_ >= shortest_time_step && max_time_step_ <= 1e12))
         refuse(format("sim max_time_step is %g, expected a number from %g to 1e12", max_time_step_,
                       shortest_time_step));
@@ -83,14 +83,30 @@ void vox_sim::step(double time_step) {
     }
     const double h = time_step / substeps_;
     set_substeps(h);
-    for (std::uint32_t i = 0; i < substeps_; ++i) {
-        if (detect_every_ != 0 && i % detect_every_ == 0) detect();
-        substep(h);
-    }
+    run_substeps(h);
     for (const auto& body : bodies_) write_grid_positions(*body);
     ++counts_.steps;
     counts_.step_ns = nanoseconds() - start;
     counts_.solve_ns = counts_.step_ns - counts_.detect_ns;
+}
+
+void vox_sim::run_substeps(double h) {
+    struct Moving {
+        vox_sim& sim;
+        std::uint32_t done = 0;
+        double part(std::uint32_t substeps) const noexcept { return double(substeps) / sim.substeps_; }
+        ~Moving() { sim.shapes_.end_step(sim.grid(), part(done)); }
+    };
+    shapes_.begin_step(grid(), bodies_);
+    Moving moving{*this};
+    for (std::uint32_t& i = moving.done; i < substeps_; ++i) {
+        const std::uint32_t age = detect_every_ != 0 ? i % detect_every_ : 1;
+        if (age == 0) {
+            shapes_.begin_substep(grid(), moving.part(i), moving.part(i + 1));
+            detect();
+        }
+        substep(h, age);
+    }
 }
 
 void vox_sim::set_substeps(double h) {
@@ -114,7 +130,7 @@ void vox_sim::detect() {
     const std::uint64_t start = nanoseconds();
     check(vox_grid_step(grid_.get()));
     counts_.detect_ns += nanoseconds() - start;
-    gather_contacts(grid_.get(), bodies_, contact_settings_, contacts_);
+    gather_contacts(grid_.get(), bodies_, shapes_, contact_settings_, contacts_);
     ++counts_.detections;
     counts_.constraints = contacts_.size();
 }
@@ -128,13 +144,13 @@ void vox_sim::bind_exactly(SoftBody& body) {
                                    name_of(body).c_str(), body.most_rounded));
 }
 
-void vox_sim::substep(double h) {
+void vox_sim::substep(double h, std::uint32_t age) {
     for (const auto& body : bodies_) move_freely(*body, gravity_, h);
     for (const auto& body : bodies_) {
         solve_edges(*body);
         solve_volumes(*body);
     }
-    solve_contacts(contacts_, contact_settings_, h);
+    solve_contacts(contacts_, age, contact_settings_, h);
     counts_.floor_contacts = 0;
     for (const auto& body : bodies_)
         counts_.floor_contacts += solve_floor(*body, floor_, contact_settings_, h);

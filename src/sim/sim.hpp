@@ -6,6 +6,7 @@
 #include "base/library.hpp"
 #include "sim/body.hpp"
 #include "sim/contacts.hpp"
+#include "sim/shapes.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -44,9 +45,10 @@ public:
 
 private:
     void set_substeps(double h);
+    void run_substeps(double h);
     void detect();
     void bind_exactly(vox::sim::SoftBody& body);
-    void substep(double h);
+    void substep(double h, std::uint32_t age);
     void write_log(vox_log_level level, const std::string& text) const;
 
     vox::CallerMemory memory_; // first: the other members are released to it
@@ -61,6 +63,7 @@ private:
     vox::GridHandle grid_;
     vox::Array<vox::sim::BodyHandle> bodies_; // ascending in mesh
     vox::Array<vox::sim::Contact> contacts_;  // from the last detection
+    vox::sim::Shapes shapes_;
 
     bool softening_logged_ = false;
     vox::sim::SimCounts counts_;

@@ -338,10 +338,161 @@ START_TEST(rests_far_from_the_origin) {
 }
 END_TEST
 
+static vox_body add_shape(vox_sim* sim, const vox_shape_desc* desc, double x, double y, double z) {
+    const double matrix[12] = {1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z};
+    vox_grid* grid = NULL;
+    vox_body shape = VOX_NULL_BODY;
+    ck_ok(vox_sim_get_grid(sim, &grid));
+    ck_ok(vox_shape_insert(grid, desc, &shape));
+    ck_ok(vox_body_set_transform(grid, shape, matrix));
+    return shape;
+}
+
+static void move_shape(vox_sim* sim, vox_body shape, double x, double y, double z) {
+    const double matrix[12] = {1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z};
+    vox_grid* grid = NULL;
+    ck_ok(vox_sim_get_grid(sim, &grid));
+    ck_ok(vox_body_set_transform(grid, shape, matrix));
+}
+
+/* Height of a valley along y: a bowl in x, flat in y. */
+static double valley(double x) { return 0.4 * fabs(x); }
+
+/* A ball rolls down into a valley of terrain and stays there; a sphere from above presses it down and is
+ * lifted again. */
+START_TEST(rests_on_shapes) {
+    vox_sim_desc settings = vox_default_sim_desc();
+    settings.floor_normal[2] = 0;
+    vox_sim* sim = open_sim(&settings);
+    vox_io_mesh* mesh = ball(0.5, 0.25);
+    double heights[9 * 2];
+    for (int i = 0; i < 18; ++i) heights[i] = valley(i % 9 - 4);
+    vox_shape_desc terrain = vox_default_shape_desc(), finger = vox_default_shape_desc();
+    terrain.kind = VOX_SHAPE_HEIGHTFIELD;
+    terrain.heights = heights;
+    terrain.columns = 9;
+    terrain.rows = 2;
+    terrain.spacing[0] = 1;
+    terrain.spacing[1] = 8;
+    finger.kind = VOX_SHAPE_SPHERE;
+    finger.radius = 0.4;
+    add_shape(sim, &terrain, -4, -4, 0);
+    const vox_body pressing = add_shape(sim, &finger, 0, 0, 3);
+    const vox_body body = insert(sim, mesh, NULL, 0, 1.5, 0, 1.3);
+    const vox_sim_energy before = energy_of(sim, body);
+    double deepest = 0, lowest = 0, free_height = 0;
+    for (int frame = 0; frame < 720; ++frame) {
+        const double down = frame < 300 ? 0 : fmin(frame - 300, 420 - frame) / 30.0; /* 0 .. 2 .. 0 */
+        move_shape(sim, pressing, 0, 0, 3 - fmax(down, 0));
+        steps(sim, 1);
+        const vox_sim_body_view view = view_of(sim, body);
+        for (uint64_t v = 0; v < view.vertex_count; ++v)
+            deepest = fmax(deepest, valley(view.positions[3 * v]) - view.positions[3 * v + 2]);
+        const vox_sim_energy now = energy_of(sim, body);
+        if (frame < 300) ck_assert_double_le(total(&now), total(&before) * (1 + 1e-9));
+        if (frame == 299) free_height = now.centre[2];
+        if (frame == 359) lowest = now.centre[2];
+    }
+    const vox_sim_energy after = energy_of(sim, body);
+    ck_assert_double_le(deepest, 0.03);              /* the mean edge is about 0.3 */
+    ck_assert_double_le(fabs(after.centre[0]), 0.2); /* at the bottom */
+    ck_assert_double_lt(lowest, free_height - 0.03);
+    ck_assert_double_le(fabs(after.centre[2] - free_height), 0.1);
+    ck_assert_double_lt(after.max_speed, 0.2);
+    vox_io_mesh_destroy(mesh);
+    vox_sim_destroy(sim);
+}
+END_TEST
+
+/* A belt below a box carries it along by friction, at the belt's own speed; a wall then pushes it as fast. */
+START_TEST(shapes_that_move_carry_and_push) {
+    for (uint32_t every = 1; every <= 4; every += 3) {
+        vox_sim_desc settings = vox_default_sim_desc();
+        settings.floor_normal[2] = 0;
+        settings.detect_every = every;
+        vox_sim* sim = open_sim(&settings);
+        vox_io_mesh* mesh = box(1, 1, 1, 0.5);
+        vox_shape_desc ground = vox_default_shape_desc(), wall = vox_default_shape_desc();
+        ground.kind = VOX_SHAPE_HALF_SPACE;
+        wall.kind = VOX_SHAPE_BOX;
+        wall.half_size[0] = wall.half_size[1] = wall.half_size[2] = 2;
+        const vox_body belt = add_shape(sim, &ground, 0, 0, 0);
+        const vox_body pusher = add_shape(sim, &wall, -10, 0, 2.1);
+        const vox_body body = insert(sim, mesh, NULL, 0, 0, 0, 0.5);
+        steps(sim, 60);
+        for (int frame = 1; frame <= 120; ++frame) {
+            move_shape(sim, belt, frame / 60.0, 0, 0);
+            steps(sim, 1);
+        }
+        const vox_sim_energy carried = energy_of(sim, body);
+        ck_assert_double_le(fabs(carried.momentum[0] / carried.mass - 1), 0.02);
+        steps(sim, 60); /* the belt stands, and so does the box, soon */
+        const vox_sim_energy stopped = energy_of(sim, body);
+        ck_assert_double_le(stopped.max_speed, 0.1);
+        ck_assert_double_le(fabs(stopped.centre[1]), 0.01);
+
+        const double side = stopped.centre[0] - 0.5 - 2; /* a disabled shape jumps */
+        vox_grid* grid = NULL;
+        ck_ok(vox_sim_get_grid(sim, &grid));
+        ck_ok(vox_body_set_enabled(grid, pusher, 0));
+        steps(sim, 1);
+        move_shape(sim, pusher, side - 0.1, 0, 2.1);
+        ck_ok(vox_body_set_enabled(grid, pusher, 1));
+        steps(sim, 1);
+        const vox_sim_energy jumped = energy_of(sim, body);
+        ck_assert_double_le(jumped.max_speed, 0.1);
+        for (int frame = 1; frame <= 120; ++frame) {
+            move_shape(sim, pusher, side - 0.1 + frame / 30.0, 0, 2.1);
+            steps(sim, 1);
+        }
+        const vox_sim_energy pushed = energy_of(sim, body);
+        ck_assert_double_le(fabs(pushed.momentum[0] / pushed.mass - 2), 0.1);
+        const vox_sim_body_view view = view_of(sim, body);
+        for (uint64_t v = 0; v < view.vertex_count; ++v) {
+            ck_assert_double_ge(view.positions[3 * v + 2], -0.02);
+            ck_assert_double_ge(view.positions[3 * v], side - 0.1 + 4 + 2 - 0.02);
+        }
+        vox_io_mesh_destroy(mesh);
+        vox_sim_destroy(sim);
+    }
+}
+END_TEST
+
+/* A turntable: what lies on it turns with it. The shape is placed where it was set after each step. */
+START_TEST(shapes_that_turn_carry) {
+    vox_sim_desc settings = vox_default_sim_desc();
+    settings.floor_normal[2] = 0;
+    vox_sim* sim = open_sim(&settings);
+    vox_io_mesh* mesh = box(0.4, 0.4, 0.4, 0.2);
+    vox_shape_desc table = vox_default_shape_desc();
+    table.kind = VOX_SHAPE_CYLINDER;
+    table.radius = 2;
+    table.half_length = 0.5;
+    const vox_body turned = add_shape(sim, &table, 0, 0, -0.5);
+    const vox_body body = insert(sim, mesh, NULL, 0, 1, 0, 0.2);
+    vox_grid* grid = NULL;
+    ck_ok(vox_sim_get_grid(sim, &grid));
+    for (int frame = 0; frame <= 120; ++frame) {
+        const double angle = frame / 120.0 * 1.5707963267948966, c = cos(angle), s = sin(angle);
+        const double matrix[12] = {c, -s, 0, 0, s, c, 0, 0, 0, 0, 1, -0.5};
+        ck_ok(vox_body_set_transform(grid, turned, matrix));
+        steps(sim, 1);
+        vox_body_info info = {.struct_size = sizeof info};
+        ck_ok(vox_body_get_info(grid, turned, &info));
+        ck_assert_mem_eq(info.transform, matrix, sizeof matrix);
+    }
+    const vox_sim_energy now = energy_of(sim, body);
+    ck_assert_double_le(hypot(now.centre[0], now.centre[1] - 1), 0.1);
+    vox_io_mesh_destroy(mesh);
+    vox_sim_destroy(sim);
+}
+END_TEST
+
 SUITE(sim) {
     tcase_add_each(add_case(suite, "motion"), falls_as_the_formula_says, rests_on_the_floor,
                    a_free_body_keeps_its_momentum, two_bodies_collide_and_part, energy_does_not_grow,
                    friction_follows_coulomb, three_slabs_rest_stacked, bars_part_by_their_edges,
-                   what_went_through_comes_back, rests_far_from_the_origin,
+                   what_went_through_comes_back, rests_far_from_the_origin, rests_on_shapes,
+                   shapes_that_move_carry_and_push, shapes_that_turn_carry,
                    every_build_moves_bodies_the_same);
 }

@@ -2,7 +2,7 @@
 #include "sim/scene.h"
 #include "support/ledger.h"
 
-/* Two balls collide; sets *out to a hash of where they are, and fails as the calls do. */
+/* Two balls and a shape collide; sets *out to a hash of where they are, and fails as the calls do. */
 static vox_result run(const vox_sim_desc* desc, const vox_io_mesh* mesh, uint64_t* out) {
     vox_sim* sim = NULL;
     vox_result result = vox_sim_create(desc, &sim);
@@ -18,7 +18,18 @@ static vox_result run(const vox_sim_desc* desc, const vox_io_mesh* mesh, uint64_
         body.positions = b ? positions : view.positions;
         result = vox_sim_body_insert(sim, &body, &bodies[b]);
     }
-    for (int i = 0; i < 3 && result == VOX_OK; ++i) result = vox_sim_step(sim, 1.0 / 60);
+    vox_shape_desc shape = vox_default_shape_desc();
+    shape.kind = VOX_SHAPE_SPHERE;
+    shape.radius = 0.5;
+    vox_grid* grid = NULL;
+    vox_body pushing = VOX_NULL_BODY;
+    if (result == VOX_OK) result = vox_sim_get_grid(sim, &grid);
+    if (result == VOX_OK) result = vox_shape_insert(grid, &shape, &pushing);
+    for (int i = 0; i < 3 && result == VOX_OK; ++i) {
+        const double matrix[12] = {1, 0, 0, 0.1 * i - 0.9, 0, 1, 0, 0, 0, 0, 1, 0};
+        result = vox_body_set_transform(grid, pushing, matrix);
+        if (result == VOX_OK) result = vox_sim_step(sim, 1.0 / 60);
+    }
     *out = 0;
     for (int b = 0; b < 2 && result == VOX_OK; ++b) {
         vox_sim_body_view state;

@@ -37,6 +37,11 @@ class Replay(Files):
         self.assertIn("2 meshes, 10 vertices, 4 tetrahedra", done.stdout.decode())
         self.assertIn(self.collided["hash"], done.stdout.decode())
 
+    def test_shapes_are_no_meshes(self):
+        saved = self.snapshot + ".floor"
+        run_json("collide", self.mesh, "--floor=0,0,1,0.5", "--save", saved)
+        self.assertIn(": 1 meshes, 1 shape, ", run("replay", saved).stdout.decode())
+
     @unittest.skipUnless(hasattr(os, "openpty"), "no terminals here")
     def test_progress_on_a_terminal_is_erased_before_results(self):
         def on_a_terminal(*arguments):

@@ -15,6 +15,32 @@ namespace AOT
 
 namespace Voxtet
 {
+    /// <summary>The distance of a point from a shape, in the frame of the shape. Outside it is at most the true distance, inside
+    /// it is not above 0. The gradient points out of the shape. It is called on several threads at once.</summary>
+    public delegate double FieldFunction(Double3 point, out Double3 gradient);
+
+    /// <summary>A field that the library calls. One that throws gives no distance, and the step fails.</summary>
+    static unsafe class FieldCall
+    {
+        internal static readonly ShapeDescField Call = Evaluate; // never collected
+
+        [AOT.MonoPInvokeCallback(typeof(ShapeDescField))]
+        static void Evaluate(double* points, ulong count, double* distances, double* gradients, IntPtr user)
+        {
+            for (ulong i = 0; i < count; ++i)
+                try
+                {
+                    distances[i] = double.NaN;
+                    var field = (FieldFunction)GCHandle.FromIntPtr(user).Target;
+                    distances[i] = field(((Double3*)points)[i], out ((Double3*)gradients)[i]);
+                }
+                catch (Exception error)
+                {
+                    System.Diagnostics.Debug.WriteLine(error);
+                }
+        }
+    }
+
     /// <summary>Functions of the caller that the library calls. An exception must not cross it.</summary>
     sealed class Callbacks
     {

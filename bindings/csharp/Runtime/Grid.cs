@@ -114,7 +114,7 @@ namespace Voxtet
                 ++version;
                 ++layout;
                 VoxException.Check(Native.vox_grid_clear(use.Pointer));
-                handle.FreePrevious();
+                handle.FreeAll();
             }
         }
 
@@ -203,7 +203,7 @@ namespace Voxtet
             };
         }
 
-        Mesh Insert<T>(ReadOnlySpan<T> positions, ReadOnlySpan<uint> tets, ulong userData, Filter filter,
+        Body Insert<T>(ReadOnlySpan<T> positions, ReadOnlySpan<uint> tets, ulong userData, Filter filter,
                        ReadOnlySpan<T> restPositions) where T : struct
         {
             MeshDesc desc = Describe(positions, tets);
@@ -221,43 +221,44 @@ namespace Voxtet
                 desc.tets = t;
                 VoxException.Check(Native.vox_mesh_insert(use.Pointer, &desc, &mesh));
             }
-            return new Mesh(mesh);
+            return new Body(mesh);
         }
 
         /// <summary>Adds a mesh: three numbers a vertex, four indices a tetrahedron, both copied. GetPositions moves it.
         /// </summary>
-        public Mesh Add(ReadOnlySpan<float> positions, ReadOnlySpan<uint> tets, ulong userData = 0,
+        public Body Add(ReadOnlySpan<float> positions, ReadOnlySpan<uint> tets, ulong userData = 0,
                         Filter filter = default(Filter), ReadOnlySpan<float> restPositions = default(ReadOnlySpan<float>))
         {
             return Insert(positions, tets, userData, filter, restPositions);
         }
 
         /// <summary>The same of doubles.</summary>
-        public Mesh Add(ReadOnlySpan<double> positions, ReadOnlySpan<uint> tets, ulong userData = 0,
+        public Body Add(ReadOnlySpan<double> positions, ReadOnlySpan<uint> tets, ulong userData = 0,
                         Filter filter = default(Filter), ReadOnlySpan<double> restPositions = default(ReadOnlySpan<double>))
         {
             return Insert(positions, tets, userData, filter, restPositions);
         }
 
         /// <summary>Removes a mesh or a shape. The contacts of the last step stay as they are until the next one.</summary>
-        public void Remove(Mesh mesh)
+        public void Remove(Body body)
         {
             using (var use = handle.Change())
             {
                 ++layout;
-                VoxException.Check(Native.vox_body_remove(use.Pointer, mesh.Id));
-                handle.KeepPrevious(mesh.Id, IntPtr.Zero);
+                VoxException.Check(Native.vox_body_remove(use.Pointer, body.Id));
+                handle.KeepPrevious(body.Id, IntPtr.Zero);
+                handle.FreeField(body.Id);
             }
         }
 
         /// <summary>Whether the mesh is one of this grid.</summary>
-        public bool Contains(Mesh mesh)
+        public bool Contains(Body body)
         {
-            using (var use = handle.Read()) return Native.vox_body_is_valid(use.Pointer, mesh.Id) != 0;
+            using (var use = handle.Read()) return Native.vox_body_is_valid(use.Pointer, body.Id) != 0;
         }
 
         /// <summary>All meshes and shapes, in the order of their ids.</summary>
-        public Mesh[] GetMeshes()
+        public Body[] GetBodies()
         {
             using (var use = handle.Read())
             {
@@ -265,24 +266,24 @@ namespace Voxtet
                 VoxException.Check(Native.vox_grid_get_bodies(use.Pointer, null, 0, &count));
                 var ids = new uint[count];
                 fixed (uint* p = ids) VoxException.Check(Native.vox_grid_get_bodies(use.Pointer, p, count, &count));
-                return Array.ConvertAll(ids, id => new Mesh(id));
+                return Array.ConvertAll(ids, id => new Body(id));
             }
         }
 
-        static BodyInfo InfoOf(IntPtr grid, Mesh mesh)
+        static BodyInfo InfoOf(IntPtr grid, Body body)
         {
             BodyInfo info;
             info.struct_size = (uint)sizeof(BodyInfo);
-            VoxException.Check(Native.vox_body_get_info(grid, mesh.Id, &info));
+            VoxException.Check(Native.vox_body_get_info(grid, body.Id, &info));
             return info;
         }
 
         /// <summary>A mesh or a shape as it is now.</summary>
-        public MeshFacts GetFacts(Mesh mesh)
+        public BodyFacts GetFacts(Body body)
         {
             BodyInfo info;
-            using (var use = handle.Read()) info = InfoOf(use.Pointer, mesh);
-            return new MeshFacts
+            using (var use = handle.Read()) info = InfoOf(use.Pointer, body);
+            return new BodyFacts
             {
                 UserData = info.user_data,
                 Shape = (ShapeKind)info.shape,
@@ -296,15 +297,15 @@ namespace Voxtet
         }
 
         /// <summary>The number the mesh was added with.</summary>
-        public ulong GetUserData(Mesh mesh)
+        public ulong GetUserData(Body body)
         {
             ulong userData;
-            using (var use = handle.Read()) VoxException.Check(Native.vox_body_get_user_data(use.Pointer, mesh.Id, &userData));
+            using (var use = handle.Read()) VoxException.Check(Native.vox_body_get_user_data(use.Pointer, body.Id, &userData));
             return userData;
         }
 
         /// <summary>The tetrahedra of a mesh as they were given, those that are disabled or removed, too.</summary>
-        public uint[] GetTets(Mesh mesh)
+        public uint[] GetTets(Body mesh)
         {
             using (var use = handle.Read())
             {
@@ -317,7 +318,7 @@ namespace Voxtet
             }
         }
 
-        Positions<T> Map<T>(Mesh mesh) where T : struct
+        Positions<T> Map<T>(Body mesh) where T : struct
         {
             using (var use = handle.Change())
             {
@@ -333,12 +334,12 @@ namespace Voxtet
 
         /// <summary>The positions of a mesh that was added as floats, in the library's memory: write to them between steps.
         /// </summary>
-        public Positions<float> GetPositions(Mesh mesh) { return Map<float>(mesh); }
+        public Positions<float> GetPositions(Body mesh) { return Map<float>(mesh); }
 
         /// <summary>The same of a mesh that was added as doubles.</summary>
-        public Positions<double> GetDoublePositions(Mesh mesh) { return Map<double>(mesh); }
+        public Positions<double> GetDoublePositions(Body mesh) { return Map<double>(mesh); }
 
-        void BindPrevious<T>(Mesh mesh, ReadOnlySpan<T> numbers) where T : struct
+        void BindPrevious<T>(Body mesh, ReadOnlySpan<T> numbers) where T : struct
         {
             Positions positions = PositionsOf(numbers, "positions");
             ReadOnlySpan<byte> bytes = MemoryMarshal.AsBytes(numbers);
@@ -356,18 +357,18 @@ namespace Voxtet
         /// <summary>The positions that the vertices of a mesh had before, copied; none: it stands still. From there they move
         /// to their positions in the following steps, which also find impacts. Set them before each step. Experimental.
         /// </summary>
-        public void SetPreviousPositions(Mesh mesh, ReadOnlySpan<float> positions) { BindPrevious(mesh, positions); }
+        public void SetPreviousPositions(Body mesh, ReadOnlySpan<float> positions) { BindPrevious(mesh, positions); }
 
         /// <summary>The same of doubles.</summary>
-        public void SetPreviousPositions(Mesh mesh, ReadOnlySpan<double> positions) { BindPrevious(mesh, positions); }
+        public void SetPreviousPositions(Body mesh, ReadOnlySpan<double> positions) { BindPrevious(mesh, positions); }
 
         /// <summary>Moves a mesh as a whole by an affine map, three rows of four numbers; none: not at all. A shape is
         /// rotated, moved, and scaled along all axes alike.</summary>
-        public void SetTransform(Mesh mesh, ReadOnlySpan<double> matrix)
+        public void SetTransform(Body body, ReadOnlySpan<double> matrix)
         {
             CheckMatrix(matrix);
             fixed (double* m = &MemoryMarshal.GetReference(matrix))
-            using (var use = handle.Change()) VoxException.Check(Native.vox_body_set_transform(use.Pointer, mesh.Id, m));
+            using (var use = handle.Change()) VoxException.Check(Native.vox_body_set_transform(use.Pointer, body.Id, m));
         }
 
         static void CheckMatrix(ReadOnlySpan<double> matrix)
@@ -377,41 +378,41 @@ namespace Voxtet
         }
 
         /// <summary>Sets what a mesh collides with.</summary>
-        public void SetFilter(Mesh mesh, Filter filter)
+        public void SetFilter(Body body, Filter filter)
         {
-            using (var use = handle.Change()) VoxException.Check(Native.vox_body_set_filter(use.Pointer, mesh.Id, &filter));
+            using (var use = handle.Change()) VoxException.Check(Native.vox_body_set_filter(use.Pointer, body.Id, &filter));
         }
 
         /// <summary>What a mesh collides with.</summary>
-        public Filter GetFilter(Mesh mesh)
+        public Filter GetFilter(Body body)
         {
-            using (var use = handle.Read()) return InfoOf(use.Pointer, mesh).filter;
+            using (var use = handle.Read()) return InfoOf(use.Pointer, body).filter;
         }
 
         /// <summary>Leaves a mesh out of the following steps, or takes it in again.</summary>
-        public void SetEnabled(Mesh mesh, bool enabled)
+        public void SetEnabled(Body body, bool enabled)
         {
             using (var use = handle.Change())
-                VoxException.Check(Native.vox_body_set_enabled(use.Pointer, mesh.Id, enabled ? 1u : 0u));
+                VoxException.Check(Native.vox_body_set_enabled(use.Pointer, body.Id, enabled ? 1u : 0u));
         }
 
         /// <summary>Whether two meshes collide, if their filters let them.</summary>
-        public void SetPairEnabled(Mesh a, Mesh b, bool enabled)
+        public void SetPairEnabled(Body a, Body b, bool enabled)
         {
             using (var use = handle.Change())
                 VoxException.Check(Native.vox_grid_set_pair_enabled(use.Pointer, a.Id, b.Id, enabled ? 1u : 0u));
         }
 
         /// <summary>Makes the next step process a mesh even if it did not move, for measurements.</summary>
-        public void MarkMoved(Mesh mesh)
+        public void MarkMoved(Body body)
         {
-            using (var use = handle.Change()) VoxException.Check(Native.vox_body_mark_moved(use.Pointer, mesh.Id));
+            using (var use = handle.Change()) VoxException.Check(Native.vox_body_mark_moved(use.Pointer, body.Id));
         }
 
         // ---- cutting and growing ----
 
         /// <summary>Replaces vertices, tetrahedra and positions of a mesh.</summary>
-        public void SetTopology(Mesh mesh, ReadOnlySpan<float> positions, ReadOnlySpan<uint> tets)
+        public void SetTopology(Body mesh, ReadOnlySpan<float> positions, ReadOnlySpan<uint> tets)
         {
             MeshDesc desc = Describe(positions, tets);
             fixed (float* p = &MemoryMarshal.GetReference(positions))
@@ -426,7 +427,7 @@ namespace Voxtet
         }
 
         /// <summary>Disables tetrahedra, so that they contain nothing, or enables them again.</summary>
-        public void SetTetsEnabled(Mesh mesh, ReadOnlySpan<uint> tets, bool enabled)
+        public void SetTetsEnabled(Body mesh, ReadOnlySpan<uint> tets, bool enabled)
         {
             fixed (uint* t = &MemoryMarshal.GetReference(tets))
             using (var use = handle.Change())
@@ -435,7 +436,7 @@ namespace Voxtet
         }
 
         /// <summary>Gives tetrahedra other corners, four each.</summary>
-        public void ReplaceTets(Mesh mesh, ReadOnlySpan<uint> tets, ReadOnlySpan<uint> corners)
+        public void ReplaceTets(Body mesh, ReadOnlySpan<uint> tets, ReadOnlySpan<uint> corners)
         {
             if (corners.Length != 4 * tets.Length)
                 throw new ArgumentException(corners.Length + " corners, expected " + 4 * tets.Length, "corners");
@@ -446,7 +447,7 @@ namespace Voxtet
         }
 
         /// <summary>Adds tetrahedra of four corners each; the index of the first.</summary>
-        public uint AppendTets(Mesh mesh, ReadOnlySpan<uint> corners)
+        public uint AppendTets(Body mesh, ReadOnlySpan<uint> corners)
         {
             uint first;
             ulong count = Count(corners.Length, 4, "corners");
@@ -457,7 +458,7 @@ namespace Voxtet
         }
 
         /// <summary>Removes tetrahedra. Their vertices stay.</summary>
-        public void RemoveTets(Mesh mesh, ReadOnlySpan<uint> tets)
+        public void RemoveTets(Body mesh, ReadOnlySpan<uint> tets)
         {
             fixed (uint* t = &MemoryMarshal.GetReference(tets))
             using (var use = handle.Change())
@@ -465,7 +466,7 @@ namespace Voxtet
         }
 
         /// <summary>Adds copies of vertices, where these are; the index of the first.</summary>
-        public uint AppendCopies(Mesh mesh, ReadOnlySpan<uint> copiesOf)
+        public uint AppendCopies(Body mesh, ReadOnlySpan<uint> copiesOf)
         {
             var desc = new VerticesDesc { struct_size = (uint)sizeof(VerticesDesc), count = (ulong)copiesOf.Length };
             uint first;
@@ -480,7 +481,7 @@ namespace Voxtet
         }
 
         /// <summary>Adds vertices at these positions, to a mesh that was added as floats; the index of the first.</summary>
-        public uint AppendVertices(Mesh mesh, ReadOnlySpan<float> positions)
+        public uint AppendVertices(Body mesh, ReadOnlySpan<float> positions)
         {
             GetPositions(mesh); // of its own, also in a mesh that has had no vertices
             var desc = new VerticesDesc { struct_size = (uint)sizeof(VerticesDesc) };
@@ -498,7 +499,7 @@ namespace Voxtet
         }
 
         /// <summary>Removes vertices that no enabled tetrahedron has.</summary>
-        public void RemoveVertices(Mesh mesh, ReadOnlySpan<uint> vertices)
+        public void RemoveVertices(Body mesh, ReadOnlySpan<uint> vertices)
         {
             fixed (uint* v = &MemoryMarshal.GetReference(vertices))
             using (var use = handle.Change())
@@ -601,8 +602,8 @@ namespace Voxtet
         /// <summary>Finds the constraints of the last step, or those of one mesh, or of a mesh with another, or of pairs in
         /// which the category of a mesh has a bit of the mask. It ends the views. With GridFlags.Constraints every step does
         /// so itself. closestBudget: most searches for a closest point; 0: no limit.</summary>
-        public void FindConstraints(DepthMethod method = DepthMethod.Consistent, Mesh a = default(Mesh),
-                                    Mesh b = default(Mesh), ulong mask = 0, ulong closestBudget = 0)
+        public void FindConstraints(DepthMethod method = DepthMethod.Consistent, Body a = default(Body),
+                                    Body b = default(Body), ulong mask = 0, ulong closestBudget = 0)
         {
             var desc = new ConstraintDesc
             {

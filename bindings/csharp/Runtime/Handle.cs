@@ -76,6 +76,7 @@ namespace Voxtet
     {
         internal Callbacks Callbacks; // for the library to call as long as the grid lives
         readonly Dictionary<uint, IntPtr> previous = new Dictionary<uint, IntPtr>(); // positions that it borrows, by mesh
+        readonly Dictionary<uint, GCHandle> fields = new Dictionary<uint, GCHandle>(); // functions that it calls, by shape
 
         internal GridHandle(IntPtr grid) : base(grid) { }
 
@@ -88,16 +89,28 @@ namespace Voxtet
             else previous[mesh] = positions;
         }
 
-        internal void FreePrevious()
+        internal void KeepField(uint shape, GCHandle field) { fields[shape] = field; }
+
+        internal void FreeField(uint body)
+        {
+            GCHandle field;
+            if (!fields.TryGetValue(body, out field)) return;
+            field.Free();
+            fields.Remove(body);
+        }
+
+        internal void FreeAll()
         {
             foreach (IntPtr positions in previous.Values) Marshal.FreeHGlobal(positions);
             previous.Clear();
+            foreach (GCHandle field in fields.Values) field.Free();
+            fields.Clear();
         }
 
         protected override bool ReleaseHandle()
         {
             Native.vox_grid_destroy(handle);
-            FreePrevious();
+            FreeAll();
             if (Callbacks != null) Callbacks.Free();
             return true;
         }

@@ -35,11 +35,11 @@ namespace Voxtet
         }
 
         /// <summary>The number that a mesh was added with.</summary>
-        public ulong GetUserData(Mesh mesh)
+        public ulong GetUserData(Body body)
         {
             ulong userData;
             using (var use = handle.Read())
-                VoxException.Check(Native.vox_locator_get_user_data(use.Pointer, mesh.Id, &userData));
+                VoxException.Check(Native.vox_locator_get_user_data(use.Pointer, body.Id, &userData));
             return userData;
         }
 

@@ -2369,7 +2369,8 @@ namespace Voxtet
         [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void vox_sim_destroy(IntPtr sim);
 
-        /// <summary>Gets the grid inside, for reading results and for setting cell size and workers.</summary>
+        /// <summary>Gets the grid inside, for reading results, for setting cell size and workers, and for rigid shapes:
+        /// those inserted there hold and push the bodies.</summary>
         [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_sim_get_grid(IntPtr sim, IntPtr* out_grid);
 

@@ -4,21 +4,21 @@ namespace Voxtet
 {
     /// <summary>Names a mesh or a shape in its grid. The number of a removed one is never used again, so a stale one is refused.
     /// </summary>
-    public readonly struct Mesh : IEquatable<Mesh>
+    public readonly struct Body : IEquatable<Body>
     {
         /// <summary>The number that contacts, pairs and constraints have in body_a and body_b.</summary>
         public readonly uint Id;
 
-        public Mesh(uint id) { Id = id; }
+        public Body(uint id) { Id = id; }
 
-        public static readonly Mesh None = new Mesh(Native.VOX_NULL_BODY);
+        public static readonly Body None = new Body(Native.VOX_NULL_BODY);
 
-        public bool Equals(Mesh other) { return Id == other.Id; }
-        public override bool Equals(object other) { return other is Mesh && Equals((Mesh)other); }
+        public bool Equals(Body other) { return Id == other.Id; }
+        public override bool Equals(object other) { return other is Body && Equals((Body)other); }
         public override int GetHashCode() { return (int)Id; }
-        public static bool operator ==(Mesh a, Mesh b) { return a.Id == b.Id; }
-        public static bool operator !=(Mesh a, Mesh b) { return a.Id != b.Id; }
-        public override string ToString() { return "Mesh " + Id; }
+        public static bool operator ==(Body a, Body b) { return a.Id == b.Id; }
+        public static bool operator !=(Body a, Body b) { return a.Id != b.Id; }
+        public override string ToString() { return "Body " + Id; }
     }
 
     /// <summary>Settings of a grid. vox.h explains each under vox_grid_desc.</summary>
@@ -53,7 +53,7 @@ namespace Voxtet
     }
 
     /// <summary>A mesh as it is now.</summary>
-    public struct MeshFacts
+    public struct BodyFacts
     {
         public ulong UserData;
         /// <summary>None for a mesh.</summary>

@@ -16,6 +16,7 @@ namespace Voxtet
         internal double[] Positions = noNumbers, Heights = noNumbers;
         internal uint[] Triangles = noIndices;
         internal uint Columns;
+        internal FieldFunction Function;
 
         Shape(ShapeKind kind) { Kind = kind; }
 
@@ -84,6 +85,13 @@ namespace Voxtet
             return OfTriangles(ShapeKind.Sheet, positions, segments, radius);
         }
 
+        /// <summary>Where a function is not positive, in a box around the origin that has half these sides.</summary>
+        public static Shape Field(FieldFunction field, double halfX, double halfY, double halfZ)
+        {
+            if (field == null) throw new ArgumentNullException("field");
+            return new Shape(ShapeKind.Field) { Function = field, HalfSize = new Double3 { x = halfX, y = halfY, z = halfZ } };
+        }
+
         static Shape OfTriangles(ShapeKind kind, double[] positions, uint[] triangles, double radius)
         {
             if (positions == null) throw new ArgumentNullException("positions");
@@ -99,7 +107,7 @@ namespace Voxtet
         /// <summary>Adds a rigid shape, which takes part from the next step on. The vertices of meshes collide with it. Its
         /// constraints have vertices of body_a alone. What is returned is good wherever a shape has what a mesh has:
         /// transform, filter, user data, whether it is enabled. Experimental.</summary>
-        public Mesh AddShape(Shape shape, ulong userData = 0, Filter filter = default(Filter))
+        public Body AddShape(Shape shape, ulong userData = 0, Filter filter = default(Filter))
         {
             if (shape == null) throw new ArgumentNullException("shape");
             uint body;
@@ -118,14 +126,25 @@ namespace Voxtet
                 desc.positions.data = (IntPtr)p;
                 desc.spacing[0] = shape.SpacingX;
                 desc.spacing[1] = shape.SpacingY;
-                VoxException.Check(Native.vox_shape_insert(use.Pointer, &desc, &body));
+                if (shape.Function == null)
+                {
+                    VoxException.Check(Native.vox_shape_insert(use.Pointer, &desc, &body));
+                    return new Body(body);
+                }
+                GCHandle field = GCHandle.Alloc(shape.Function);
+                desc.field = Marshal.GetFunctionPointerForDelegate(FieldCall.Call);
+                desc.field_user = GCHandle.ToIntPtr(field);
+                Result result = Native.vox_shape_insert(use.Pointer, &desc, &body);
+                if (result == Result.Ok) handle.KeepField(body, field);
+                else field.Free();
+                VoxException.Check(result);
             }
-            return new Mesh(body);
+            return new Body(body);
         }
 
         /// <summary>Says where a shape was before, as in SetTransform; none: it stands still. In the following steps it moves from
         /// there to its transform, and they also find impacts with it. Experimental.</summary>
-        public void SetPreviousTransform(Mesh shape, ReadOnlySpan<double> matrix)
+        public void SetPreviousTransform(Body shape, ReadOnlySpan<double> matrix)
         {
             CheckMatrix(matrix);
             fixed (double* m = &MemoryMarshal.GetReference(matrix))

@@ -32,7 +32,7 @@ namespace Voxtet.Tests
             tets = t.ToArray();
         }
 
-        static Grid TwoBlocks(out Mesh a, out Mesh b, GridOptions options = null, uint n = 6)
+        static Grid TwoBlocks(out Body a, out Body b, GridOptions options = null, uint n = 6)
         {
             var grid = new Grid(options ?? new GridOptions());
             float[] positions;
@@ -44,7 +44,7 @@ namespace Voxtet.Tests
             return grid;
         }
 
-        static void Put(Grid grid, Mesh mesh, int index, float number)
+        static void Put(Grid grid, Body mesh, int index, float number)
         {
             Positions<float> positions = grid.GetPositions(mesh);
             positions[index] = number;
@@ -53,7 +53,7 @@ namespace Voxtet.Tests
         public static void Errors()
         {
             var grid = new Grid();
-            Mesh mesh = grid.Add(unit, tet);
+            Body mesh = grid.Add(unit, tet);
             Test.Throws<VoxArgumentException>(() => grid.Add(unit, new uint[] { 0, 1, 2, 4 }), "names vertex 4 of 4");
             Test.Throws<ArgumentException>(() => grid.Add(unit, new uint[] { 0, 1, 2 }), "3 numbers, expected 4");
             Test.Throws<ArgumentException>(() => grid.Add(new float[4], tet), "4 numbers, expected 3");
@@ -92,7 +92,7 @@ namespace Voxtet.Tests
         /// <summary>The paper's engine finds the same, and a sensor has contacts without constraints.</summary>
         public static void Settings()
         {
-            Mesh a, b;
+            Body a, b;
             var options = new GridOptions { Reference = new ReferenceOptions { Flags = ReferenceFlags.Dense }, ByteBudget = ulong.MaxValue };
             using (Grid fast = TwoBlocks(out a, out b), paper = TwoBlocks(out a, out b, options))
             {
@@ -109,7 +109,7 @@ namespace Voxtet.Tests
 
         public static void Views()
         {
-            Mesh a, b;
+            Body a, b;
             Grid grid = TwoBlocks(out a, out b);
             grid.Step();
             View<Contact> contacts = grid.Contacts;
@@ -166,7 +166,7 @@ namespace Voxtet.Tests
         /// <summary>Each kind, where it is expected, and what it says of the positions.</summary>
         public static void Constraints()
         {
-            Mesh a, b;
+            Body a, b;
             Grid grid = TwoBlocks(out a, out b, new GridOptions { Flags = GridFlags.Constraints | GridFlags.Edges, Margin = 0.8 });
             double[] atA = Array.ConvertAll(grid.GetPositions(a).ToArray(), x => (double)x);
             double[] atB = Array.ConvertAll(grid.GetPositions(b).ToArray(), x => (double)x);
@@ -207,7 +207,7 @@ namespace Voxtet.Tests
             {
                 grid.Add(unit, tet);
                 float[] past = { 0.2f, 0.2f, -0.1f };
-                Mesh point = grid.Add(past, new uint[0]);
+                Body point = grid.Add(past, new uint[0]);
                 var before = new double[] { 0.2, 0.2, 3 };
                 grid.SetPreviousPositions(point, before);
                 before[2] = -9; // copied
@@ -235,7 +235,7 @@ namespace Voxtet.Tests
 
         public static void Threads()
         {
-            Mesh a, b;
+            Body a, b;
             Grid grid = TwoBlocks(out a, out b, new GridOptions { Workers = Grid.AllCores }, 12);
             grid.Step();
             ulong hash = grid.Hash;
@@ -292,7 +292,7 @@ namespace Voxtet.Tests
 
         public static void Locators()
         {
-            Mesh a, b;
+            Body a, b;
             Grid grid = TwoBlocks(out a, out b);
             Locator locator = grid.TakeLocator();
             double[] from = { -1, 0.5, 0.5, -1, 9, 0 }, to = { 9, 0.5, 0.5, 9, 9, 0 }, point = { -1, 0.5, 0.5 };
@@ -399,7 +399,7 @@ namespace Voxtet.Tests
             for (int i = 0; i < Double24.Length; ++i) twice.ns[i] *= 2;
             Test.Same(CellSize.Suggest(positions, tets, CostModel.Reference, twice).Cost,
                       2 * CellSize.Suggest(positions, tets, CostModel.Reference, weights).Cost, "weights");
-            Mesh a, b;
+            Body a, b;
             using (Grid grid = TwoBlocks(out a, out b))
                 Test.That(grid.SuggestCellSize().CellSize > 0 && grid.SuggestCellSize(CostModel.Paper).CellSize > 0, "a grid");
             using (Grid grid = TwoBlocks(out a, out b, new GridOptions { Reference = new ReferenceOptions { Weights = weights } }))
@@ -506,7 +506,7 @@ namespace Voxtet.Tests
         public static void ManyGrids()
         {
             var grids = new Grid[20];
-            Mesh a = Mesh.None, b;
+            Body a = Body.None, b;
             for (int i = 0; i < grids.Length; ++i) grids[i] = TwoBlocks(out a, out b);
             Grid.StepAll(grids, 2);
             foreach (Grid grid in grids) Test.Same(grid.Hash, grids[0].Hash, "hash");
@@ -523,7 +523,7 @@ namespace Voxtet.Tests
         {
             using (var grid = new Grid())
             {
-                Mesh mesh = grid.Add(new float[0], new uint[0]);
+                Body mesh = grid.Add(new float[0], new uint[0]);
                 Test.Same(grid.GetPositions(mesh).Length, 0, "positions");
                 grid.Step();
                 using (Locator locator = grid.TakeLocator())
@@ -545,14 +545,14 @@ namespace Voxtet.Tests
         public static void AnythingGoes()
         {
             var random = new Random(1);
-            Mesh a, b;
+            Body a, b;
             Grid grid = TwoBlocks(out a, out b);
             Locator locator = grid.TakeLocator();
             int refused = 0, done = 0;
             for (int round = 0; round < 3000; ++round)
             {
-                Mesh[] meshes = grid.GetMeshes();
-                Mesh mesh = random.Next(4) == 0 || meshes.Length == 0 ? new Mesh((uint)random.Next()) : meshes[random.Next(meshes.Length)];
+                Body[] meshes = grid.GetBodies();
+                Body mesh = random.Next(4) == 0 || meshes.Length == 0 ? new Body((uint)random.Next()) : meshes[random.Next(meshes.Length)];
                 var list = new uint[random.Next(4)];
                 for (int i = 0; i < list.Length; ++i) list[i] = (uint)random.Next(1500);
                 var corners = new uint[4 * list.Length];
@@ -570,7 +570,7 @@ namespace Voxtet.Tests
                         case 5: grid.RemoveVertices(mesh, list); break;
                         case 6: grid.SetTransform(mesh, new[] { 1, 0, 0, number, 0, 1, 0, 0, 0, 0, 1, 0 }); break;
                         case 7: grid.CellSize = number; break;
-                        case 8: grid.SetPairEnabled(mesh, new Mesh((uint)random.Next(9000)), random.Next(2) == 0); break;
+                        case 8: grid.SetPairEnabled(mesh, new Body((uint)random.Next(9000)), random.Next(2) == 0); break;
                         case 9:
                             ulong mask = ulong.MaxValue >> random.Next(64);
                             grid.SetFilter(mesh, new Filter { flags = (FilterFlags)random.Next(5), mask = mask });
@@ -585,7 +585,7 @@ namespace Voxtet.Tests
                             if (meshes.Length < 4) grid.Add(positions, tets);
                             break;
                         case 14: locator.Update(grid); locator.FindPointHits(new[] { number, 0, 0 }, new PointHit[2]); break;
-                        case 15: grid.FindConstraints((DepthMethod)random.Next(4), random.Next(2) == 0 ? mesh : Mesh.None); break;
+                        case 15: grid.FindConstraints((DepthMethod)random.Next(4), random.Next(2) == 0 ? mesh : Body.None); break;
                         case 16: grid.SetPreviousPositions(mesh, grid.GetPositions(mesh).AsSpan().Slice(3 * random.Next(2))); break;
                         case 17: grid.Margin = number / 100; break;
                         default: grid.Step(); break;
@@ -605,7 +605,7 @@ namespace Voxtet.Tests
         /// <summary>A frame takes no memory of the collector's.</summary>
         public static void NoAllocation()
         {
-            Mesh a, b;
+            Body a, b;
             Grid grid = TwoBlocks(out a, out b, new GridOptions { Flags = GridFlags.Constraints });
             double sum = 0;
             Frame(grid, a, ref sum);
@@ -619,7 +619,7 @@ namespace Voxtet.Tests
             grid.Dispose();
         }
 
-        static void Frame(Grid grid, Mesh mesh, ref double sum)
+        static void Frame(Grid grid, Body mesh, ref double sum)
         {
             Positions<float> positions = grid.GetPositions(mesh);
             positions[0] = positions[0] > 0 ? 0 : 0.01f;
@@ -668,7 +668,7 @@ namespace Voxtet.Tests
         public static void NothingLeaks()
         {
             if (!System.IO.File.Exists("/proc/self/status")) return;
-            Mesh a, b;
+            Body a, b;
             long before = 0;
             for (int i = 0; i < 3000; ++i)
             {

@@ -20,8 +20,8 @@ namespace Voxtet.Tests
         {
             using (var grid = new Grid(new GridOptions { Flags = GridFlags.Constraints }))
             {
-                Mesh point = grid.Add(new[] { x, y, z, 2, 3, 4 }, noTets);
-                Mesh body = grid.AddShape(shape, 7);
+                Body point = grid.Add(new[] { x, y, z, 2, 3, 4 }, noTets);
+                Body body = grid.AddShape(shape, 7);
                 grid.Step();
                 Test.Same(grid.Constraints.Length, 1, kind + ": constraints");
                 Constraint c = grid.Constraints[0];
@@ -53,7 +53,7 @@ namespace Voxtet.Tests
             using (var grid = new Grid(new GridOptions { Flags = GridFlags.Constraints }))
             {
                 grid.Add(new double[] { 0, 0, 3 }, noTets);
-                Mesh ball = grid.AddShape(Shape.Sphere(0.25));
+                Body ball = grid.AddShape(Shape.Sphere(0.25));
                 grid.SetTransform(ball, At(6));
                 grid.SetPreviousTransform(ball, At(0));
                 grid.Step();
@@ -67,11 +67,39 @@ namespace Voxtet.Tests
             }
         }
 
+        public static void Field()
+        {
+            using (var grid = new Grid(new GridOptions { Flags = GridFlags.Constraints }))
+            {
+                grid.Add(new[] { 0, 0, 0.75 }, noTets);
+                Body ball = grid.AddShape(Shape.Field((Double3 at, out Double3 gradient) =>
+                {
+                    gradient = at;
+                    return Math.Sqrt(at.x * at.x + at.y * at.y + at.z * at.z) - 1;
+                }, 1, 1, 1));
+                Collect();
+                grid.Step();
+                Test.Same(grid.Constraints.Length, 1, "constraints");
+                Test.That(Math.Abs(grid.Constraints[0].gap + 0.25) < 1e-9, "gap");
+                grid.Remove(ball);
+                grid.AddShape(Shape.Field((Double3 at, out Double3 gradient) => { throw new Exception("no distance"); }, 1, 1, 1));
+                Test.Throws<VoxException>(() => grid.Step(), "the field of a shape has distance nan");
+                Test.Throws<VoxArgumentException>(() => grid.AddShape(Shape.Field((Double3 at, out Double3 g) => { g = at; return 1; }, -1, 1, 1)),
+                                                  "half_size");
+            }
+        }
+
+        static void Collect()
+        {
+            GC.Collect();
+            GC.WaitForPendingFinalizers();
+        }
+
         public static void Refused()
         {
             using (var grid = new Grid())
             {
-                Mesh point = grid.Add(new double[] { 0, 0, 3 }, noTets), ball = grid.AddShape(Shape.Sphere(0.25));
+                Body point = grid.Add(new double[] { 0, 0, 3 }, noTets), ball = grid.AddShape(Shape.Sphere(0.25));
                 Test.Throws<ArgumentNullException>(() => grid.AddShape(null), "");
                 Test.Throws<VoxArgumentException>(() => grid.AddShape(Shape.Sphere(-1)), "radius is -1");
                 Test.Throws<VoxArgumentException>(() => grid.AddShape(Shape.Solid(corners, noTets)), "triangle_count is 0");

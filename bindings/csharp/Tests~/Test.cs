@@ -35,7 +35,7 @@ namespace Voxtet.Tests
             {
                 Layouts, () => Vectors.Run(arguments[0]), Misuse.Errors, Misuse.Settings, Misuse.Views, Misuse.Constraints, Misuse.PreviousPositions,
                 Misuse.Threads, Misuse.Locators, Misuse.Log, Misuse.CellSizes, Misuse.GridsOfOthers, Misuse.Files, Misuse.ManyGrids,
-                Misuse.EmptyArrays, Shapes.EachKind, Shapes.Motion, Shapes.Refused, Misuse.AnythingGoes, Misuse.NoAllocation,
+                Misuse.EmptyArrays, Shapes.EachKind, Shapes.Motion, Shapes.Field, Shapes.Refused, Misuse.AnythingGoes, Misuse.NoAllocation,
                 Misuse.LogHoldsGrid, Misuse.NothingLeaks
             };
             int failed = 0;

@@ -45,7 +45,7 @@ namespace Voxtet.Tests
             public double Number(string name) { return (double)Fields[name]; }
             public uint Uint(string name) { return (uint)(double)Fields[name]; }
             public string Text(string name) { return (string)Fields[name]; }
-            public Mesh Mesh(string name = "mesh") { return new Mesh(Has(name) ? Uint(name) : 0); }
+            public Body Body(string name = "mesh") { return new Body(Has(name) ? Uint(name) : 0); }
         }
 
         void Replay(Call call)
@@ -109,7 +109,7 @@ namespace Voxtet.Tests
 
         void Make(Call call)
         {
-            Mesh mesh = call.Mesh();
+            Body mesh = call.Body();
             uint count = call.Has("count") ? call.Uint("count") : 0;
             switch (call.Text("call"))
             {
@@ -122,7 +122,7 @@ namespace Voxtet.Tests
                     uint[] tets = Array<uint>(call, "tets", 4 * call.Uint("tet_count"));
                     ulong userData = ulong.Parse(call.Text("user_data"));
                     Filter filter = call.Has("filter") ? FilterOf(call) : default(Filter);
-                    Mesh added = call.Uint("format") == 1
+                    Body added = call.Uint("format") == 1
                                      ? grid.Add(Array<double>(call, "positions", 3 * call.Uint("vertices")), tets, userData, filter)
                                      : grid.Add(Array<float>(call, "positions", 3 * call.Uint("vertices")), tets, userData, filter);
                     Test.Same((double)added.Id, call.Number("mesh"), place);
@@ -197,7 +197,7 @@ namespace Voxtet.Tests
                     grid.SetEnabled(mesh, call.Uint("enabled") != 0);
                     break;
                 case "set_pair_enabled":
-                    grid.SetPairEnabled(call.Mesh("body_a"), call.Mesh("body_b"), call.Uint("enabled") != 0);
+                    grid.SetPairEnabled(call.Body("body_a"), call.Body("body_b"), call.Uint("enabled") != 0);
                     break;
                 case "set_flags":
                     grid.Flags = (GridFlags)call.Uint("flags");
@@ -284,12 +284,12 @@ namespace Voxtet.Tests
         void Meshes(Call call)
         {
             var expected = (List<object>)call.Fields["meshes"];
-            Mesh[] found = grid.GetMeshes();
+            Body[] found = grid.GetBodies();
             Test.Same((double)found.Length, (double)expected.Count, place);
             for (int i = 0; i < found.Length; ++i)
             {
                 var mesh = new Call((Dictionary<string, object>)expected[i]);
-                MeshFacts facts = grid.GetFacts(found[i]);
+                BodyFacts facts = grid.GetFacts(found[i]);
                 Test.Same(facts.UserData.ToString(), mesh.Text("user_data"), place);
                 Check(mesh, "mesh", found[i].Id);
                 Check(mesh, "vertices", facts.VertexCount);

@@ -105,8 +105,8 @@ export function callback(value, what) {
   return value;
 }
 
-/** The id of a mesh, given as such or as a Mesh; null is none. */
-export function meshId(value, what) {
+/** The id of a body, given as such or as a Body; null is none. */
+export function bodyId(value, what) {
   if (value === null) return 0;
   return integer(typeof value === "object" ? value.id : value, what, "u32");
 }

@@ -1,5 +1,5 @@
 import { Format } from "../enums.js";
-import { bits, bytes, callback, fields, flag, float, floats, indices, integer, list, meshId, options, positions } from "./check.js";
+import { bits, bytes, callback, fields, flag, float, floats, indices, integer, list, bodyId, options, positions } from "./check.js";
 import { cellSizeResult, suggestOptions, weighted } from "./cell_size.js";
 import { Locator } from "./locator.js";
 import { meshArrays, meshDesc, same } from "./mesh_arrays.js";
@@ -156,31 +156,31 @@ export class Grid extends Owned {
         ),
       ),
     );
-    return new Mesh(this, id);
+    return new Body(this, id);
   }
 
   addShape(shape) {
     const memory = memoryOf(this);
     const described = shapeOf(shape, filterOf, memory);
-    return new Mesh(this, memory.frame((frame) => memory.number("u32", (out) => this.#call("vox_shape_insert", described(frame), out))));
+    return new Body(this, memory.frame((frame) => memory.number("u32", (out) => this.#call("vox_shape_insert", described(frame), out))));
   }
 
-  mesh(id) {
-    return new Mesh(this, integer(id, "id", "u32"));
+  body(id) {
+    return new Body(this, integer(id, "id", "u32"));
   }
 
-  get meshes() {
+  get bodies() {
     const memory = memoryOf(this);
     return memory.frame((frame) => {
       const count = memory.number("count", (out) => this.#call("vox_grid_get_bodies", 0, 0, out));
       const ids = frame.take(4 * count);
       memory.number("count", (out) => this.#call("vox_grid_get_bodies", ids, count, out));
-      return Array.from(memory.copy("u32", ids, count), (id) => new Mesh(this, id));
+      return Array.from(memory.copy("u32", ids, count), (id) => new Body(this, id));
     });
   }
 
   setPairEnabled(bodyA, bodyB, enabled) {
-    this.#call("vox_grid_set_pair_enabled", meshId(bodyA, "bodyA"), meshId(bodyB, "bodyB"), flag(enabled, "enabled"));
+    this.#call("vox_grid_set_pair_enabled", bodyId(bodyA, "bodyA"), bodyId(bodyB, "bodyB"), flag(enabled, "enabled"));
   }
 
   // ---- step and results ----
@@ -261,7 +261,7 @@ export class Grid extends Owned {
 }
 
 /** A mesh or a shape of a grid: its id, and the functions that take one. */
-export class Mesh {
+export class Body {
   #grid;
   #id;
 

@@ -1,4 +1,4 @@
-import { fields, meshId, positions } from "./check.js";
+import { fields, bodyId, positions } from "./check.js";
 import { structs } from "../layout.js";
 import { guarded, memoryOf, Owned, pointerOf, pointerOfKind, setPointer } from "./owned.js";
 import { records } from "./records.js";
@@ -36,7 +36,7 @@ export class Locator extends Owned {
   }
 
   userData(mesh) {
-    const id = meshId(mesh, "mesh");
+    const id = bodyId(mesh, "mesh");
     return memoryOf(this).number("u64", (out) => memoryOf(this).call.vox_locator_get_user_data(pointerOf(this), id, out));
   }
 

@@ -18,7 +18,7 @@ function live(vox, log) {
   grid.add(mesh);
   grid.add(moved);
   grid.step();
-  grid.meshes[0].bindPreviousPositions(moved.positions);
+  grid.bodies[0].bindPreviousPositions(moved.positions);
   grid.findConstraints();
   assert.ok(grid.constraints.length > 0);
   const locator = grid.locator();

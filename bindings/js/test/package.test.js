@@ -65,7 +65,7 @@ function programOf(words) {
 
 test("the README's shapes", async () => {
   const { grid } = await import(`data:text/javascript,${encodeURIComponent(`${programOf("HALF_SPACE")}; export { grid };`)}`);
-  assert.deepEqual(grid.meshes.map(({ userData }) => userData), [7n, 0n, 0n]);
+  assert.deepEqual(grid.bodies.map(({ userData }) => userData), [7n, 0n, 0n]);
 });
 
 test("the README's Worker", async () => {
@@ -94,7 +94,7 @@ test("every name in the types is there, and the reverse", async () => {
   const gridClass = proto(proto(grid));
   assert.deepEqual(new Set(own(gridClass)), members("Grid"));
   assert.deepEqual(new Set(own(proto(gridClass)).filter((n) => n !== "Symbol(Symbol.dispose)")), members("Owned"));
-  assert.deepEqual(new Set(own(proto(mesh))), members("Mesh"));
+  assert.deepEqual(new Set(own(proto(mesh))), members("Body"));
   assert.deepEqual(new Set(own(proto(grid.locator()))), members("Locator"));
   assert.deepEqual(new Set(own(vox)), members("Vox"));
   for (const name of [...types.matchAll(/export declare (?:function|class) (\w+)/g)].map((m) => m[1])) assert.ok(name in api, name);

@@ -93,7 +93,7 @@ export function replay(vox, script, arrays, assert) {
       return { mesh: mesh.id };
     },
     move(call) {
-      grid.mesh(call.mesh).positions = positionsOf(call);
+      grid.body(call.mesh).positions = positionsOf(call);
     },
     step: () => grid.step(),
     results(call) {
@@ -130,7 +130,7 @@ export function replay(vox, script, arrays, assert) {
       return { blocked: blocked.reduce((sum, one) => sum + one, 0) };
     },
     meshes: () => ({
-      meshes: grid.meshes.map((mesh) => {
+      meshes: grid.bodies.map((mesh) => {
         const info = mesh.info;
         return {
           mesh: mesh.id,
@@ -145,24 +145,24 @@ export function replay(vox, script, arrays, assert) {
         };
       }),
     }),
-    set_transform: (call) => grid.mesh(call.mesh).setTransform(array(Float64Array, call.matrix, 12)),
+    set_transform: (call) => grid.body(call.mesh).setTransform(array(Float64Array, call.matrix, 12)),
     set_filter(call) {
-      grid.mesh(call.mesh).filter = filterOf(call.filter);
+      grid.body(call.mesh).filter = filterOf(call.filter);
     },
     set_enabled(call) {
-      grid.mesh(call.mesh).enabled = call.enabled;
+      grid.body(call.mesh).enabled = call.enabled;
     },
     set_pair_enabled: (call) => grid.setPairEnabled(call.body_a, call.body_b, call.enabled),
     set_flags(call) {
       grid.flags = call.flags;
     },
-    remove: (call) => grid.mesh(call.mesh).remove(),
+    remove: (call) => grid.body(call.mesh).remove(),
     clear: () => grid.clear(),
-    set_tets_enabled: (call) => grid.mesh(call.mesh).setTetsEnabled(indices(call, "indices"), call.enabled),
-    remove_tets: (call) => grid.mesh(call.mesh).removeTets(indices(call, "indices")),
-    append_copies: (call) => ({ first: grid.mesh(call.mesh).appendVertices({ copiesOf: indices(call, "copies_of") }) }),
-    replace_tets: (call) => grid.mesh(call.mesh).replaceTets(indices(call, "indices"), corners(call)),
-    append_tets: (call) => ({ first: grid.mesh(call.mesh).appendTets(corners(call)) }),
+    set_tets_enabled: (call) => grid.body(call.mesh).setTetsEnabled(indices(call, "indices"), call.enabled),
+    remove_tets: (call) => grid.body(call.mesh).removeTets(indices(call, "indices")),
+    append_copies: (call) => ({ first: grid.body(call.mesh).appendVertices({ copiesOf: indices(call, "copies_of") }) }),
+    replace_tets: (call) => grid.body(call.mesh).replaceTets(indices(call, "indices"), corners(call)),
+    append_tets: (call) => ({ first: grid.body(call.mesh).appendTets(corners(call)) }),
     save() {
       const bytes = grid.save();
       return { size: bytes.length, hash: hashWords(bytes) };

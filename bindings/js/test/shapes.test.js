@@ -36,7 +36,7 @@ for (const [name, shape, point, gap, normal] of [
     near(found.gap, gap);
     normal.forEach((n, k) => near(found.normal[k], n));
     assert.deepEqual([body.info.shape, mesh.info.shape, body.filter.category], [ShapeKind[name], ShapeKind.NONE, 2n]);
-    assert.deepEqual(grid.meshes.map(({ id }) => id), [mesh.id, body.id]);
+    assert.deepEqual(grid.bodies.map(({ id }) => id), [mesh.id, body.id]);
     grid.dispose();
   });
 

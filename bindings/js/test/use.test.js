@@ -121,7 +121,7 @@ test("the log, and what it throws", () => {
   const other = new vox.Grid();
   const asking = new vox.Grid({ log: () => other.add(block(1)) });
   asking.add({ positions: new Float32Array(3) });
-  assert.equal(other.meshes.length, 1, "a log may use other grids");
+  assert.equal(other.bodies.length, 1, "a log may use other grids");
 
   // But not those that are stepped together with its own.
   const refused = [];
@@ -292,7 +292,7 @@ test("edits, and meshes by name", () => {
   right.remove();
   assert.equal(right.valid, false);
   assert.throws(() => right.info, failure(Result.ERROR_INVALID_HANDLE));
-  assert.deepEqual(grid.meshes.map((mesh) => mesh.id), [left.id]);
+  assert.deepEqual(grid.bodies.map((mesh) => mesh.id), [left.id]);
   grid.dispose();
 });
 

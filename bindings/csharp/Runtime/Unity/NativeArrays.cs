@@ -45,7 +45,7 @@ namespace Voxtet
         /// <summary>Positions of a mesh that was added as floats, three numbers a vertex: as NativeArray of Vector3 with
         /// Reinterpret. They end when the mesh is removed or gets other or more vertices: dispose of this object then and
         /// make another.</summary>
-        public NativeArray<float> Positions(Mesh mesh)
+        public NativeArray<float> Positions(Body mesh)
         {
             Span<float> numbers = grid.GetPositions(mesh).AsSpan();
             fixed (float* p = &System.Runtime.InteropServices.MemoryMarshal.GetReference(numbers))

@@ -8,7 +8,7 @@ public sealed class SoftBodies : MonoBehaviour
     public float speed = 0.2f;
 
     Grid grid;
-    Voxtet.Mesh ball, block;
+    Voxtet.Body ball, block;
     float[] rest;
 
     void OnEnable()

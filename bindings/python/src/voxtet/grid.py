@@ -166,6 +166,7 @@ class Grid(Results):
         self._borrowed_constraints = Exports()
         self._mapped: dict[int, Exports] = {}
         self._fields: dict[int, FieldCall] = {}  # that steps call
+        self._kinds: dict[int, int] = {}  # ShapeKind by id, of bodies that were asked
 
     # ---- life ----
 
@@ -425,21 +426,27 @@ class Grid(Results):
             kind = Body(self, id)._raw_info().shape
         return Shape(self, id) if kind else Mesh(self, id)
 
+    def _kind_of_all(self) -> dict[int, int]:
+        with self._lock:
+            known = self._kinds
+            self._kinds = {id: known[id] if id in known else Body(self, id)._raw_info().shape for id in self._ids().tolist()}
+            return self._kinds
+
     @property
     def meshes(self) -> list[Mesh]:
         """All meshes, in the order of their ids, disabled ones included."""
-        return [body for id in self._ids() if isinstance(body := self._body(int(id)), Mesh)]
+        return [Mesh(self, id) for id, kind in self._kind_of_all().items() if not kind]
 
     @property
     def shapes(self) -> list[Shape]:
         """All rigid shapes, likewise."""
-        return [body for id in self._ids() if isinstance(body := self._body(int(id)), Shape)]
+        return [Shape(self, id) for id, kind in self._kind_of_all().items() if kind]
 
     def __iter__(self) -> Iterator[Mesh]:
         return iter(self.meshes)
 
     def __len__(self) -> int:
-        return len(self.meshes)
+        return sum(not kind for kind in self._kind_of_all().values())
 
     def __bool__(self) -> bool:
         return True

@@ -2415,8 +2415,10 @@ extern "C" {
     pub fn vox_sim_create(desc: *const vox_sim_desc, out_sim: *mut *mut vox_sim) -> vox_result;
     /// Destroys a simulation with its bodies and its grid. Null does nothing.
     pub fn vox_sim_destroy(sim: *mut vox_sim);
-    /// Gets the grid inside, for reading results and for setting cell size and workers. It lives as long as the
-    /// simulation. Do not destroy it, and do not edit, move or bind the bodies' meshes there.
+    /// Gets the grid inside, for reading results, for setting cell size and workers, and for rigid shapes: those
+    /// inserted there hold and push the bodies. A step moves a shape at constant speed from where it was in the step
+    /// before to where vox_body_set_transform has placed it since; disable it for a step to let it jump. The grid lives
+    /// as long as the simulation. Do not destroy it, and do not edit, move or bind the bodies' meshes there.
     pub fn vox_sim_get_grid(sim: *const vox_sim, out_grid: *mut *mut vox_grid) -> vox_result;
     /// Advances everything by time_step. Errors: INVALID_ARGUMENT (not a finite number of at least 1e-12), and errors
     /// of vox_grid_step and vox_grid_find_constraints. After these the bodies are as they were after the last completed

@@ -1,3 +1,4 @@
+use std::any::Any;
 use std::collections::{BTreeMap, HashMap};
 use std::ffi::CStr;
 use std::ptr::{null, null_mut, NonNull};
@@ -11,7 +12,7 @@ use crate::cell_size::{CellSizeOptions, CellSizeResult};
 use crate::error::{check, sized};
 use crate::options::{grid_flags, weights_to_c, Scalar};
 use crate::{
-    Constraint, ConstraintOptions, Contact, Error, ErrorCode, Filter, GridOptions, Locator, Mesh, MeshOptions, Pair,
+    Body, Constraint, ConstraintOptions, Contact, Error, ErrorCode, Filter, GridOptions, Locator, MeshOptions, Pair,
     Result,
 };
 
@@ -22,7 +23,7 @@ pub type Failure = sys::vox_failure;
 
 /// A mesh as it is now.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MeshInfo {
+pub struct BodyInfo {
     /// As given when the mesh was added.
     pub user_data: u64,
     /// One of the constants in [`shape_kind`](crate::shape_kind): `NONE` for a mesh.
@@ -55,8 +56,9 @@ pub struct MeshInfo {
 /// ```
 pub struct Grid {
     grid: NonNull<sys::vox_grid>,
-    callbacks: Arc<Callbacks>,              // for C to call
-    previous: HashMap<Mesh, Vec<[f64; 3]>>, // positions that C borrows
+    callbacks: Arc<Callbacks>,                                    // for C to call
+    previous: HashMap<Body, Vec<[f64; 3]>>,                       // positions that C borrows
+    pub(crate) fields: HashMap<Body, Box<dyn Any + Send + Sync>>, // functions that C calls
 }
 
 // SAFETY: vox.h: a grid belongs to no thread; different ones are independent; functions of a const grid may run on any
@@ -73,7 +75,7 @@ impl Drop for Grid {
 
 impl std::fmt::Debug for Grid {
     fn fmt(&self, to: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        to.debug_struct("Grid").field("meshes", &self.meshes()).field("epoch", &self.epoch()).finish_non_exhaustive()
+        to.debug_struct("Grid").field("bodies", &self.bodies()).field("epoch", &self.epoch()).finish_non_exhaustive()
     }
 }
 
@@ -188,7 +190,12 @@ impl Grid {
         };
         let mut grid = null_mut();
         check(create(&desc, &mut grid))?;
-        Ok(Self { grid: NonNull::new(grid).expect("a grid"), callbacks, previous: HashMap::new() })
+        Ok(Self {
+            grid: NonNull::new(grid).expect("a grid"),
+            callbacks,
+            previous: HashMap::new(),
+            fields: HashMap::new(),
+        })
     }
 
     /// The grid as bytes that are the same on every machine: settings, meshes, positions, and which pairs
@@ -231,6 +238,7 @@ impl Grid {
         // SAFETY: here and below, a grid that lives, and arrays that are as long as is said.
         check(unsafe { sys::vox_grid_clear(self.get_mut()) })?;
         self.previous.clear();
+        self.fields.clear();
         Ok(())
     }
 
@@ -278,7 +286,7 @@ impl Grid {
     // ---- meshes ----
 
     /// Adds a mesh of these vertices and tetrahedra. Both arrays are copied; [`Grid::positions_mut`] moves the vertices.
-    pub fn add<T: Scalar>(&mut self, positions: &[[T; 3]], tets: &[[u32; 4]]) -> Result<Mesh> {
+    pub fn add<T: Scalar>(&mut self, positions: &[[T; 3]], tets: &[[u32; 4]]) -> Result<Body> {
         self.insert(&mesh_desc(positions, tets))
     }
 
@@ -288,7 +296,7 @@ impl Grid {
         positions: &[[T; 3]],
         tets: &[[u32; 4]],
         options: MeshOptions<'_, T>,
-    ) -> Result<Mesh> {
+    ) -> Result<Body> {
         let mut desc = mesh_desc(positions, tets);
         desc.user_data = options.user_data;
         desc.filter = options.filter.to_c();
@@ -298,43 +306,44 @@ impl Grid {
         self.insert(&desc)
     }
 
-    fn insert(&mut self, desc: &sys::vox_mesh_desc) -> Result<Mesh> {
+    fn insert(&mut self, desc: &sys::vox_mesh_desc) -> Result<Body> {
         let mut mesh = sys::VOX_NULL_BODY;
         check(unsafe { sys::vox_mesh_insert(self.get_mut(), desc, &mut mesh) })?;
-        Ok(Mesh(mesh))
+        Ok(Body(mesh))
     }
 
     /// Removes a mesh or a shape. The contacts of the last step stay as they are until the next one.
-    pub fn remove(&mut self, mesh: Mesh) -> Result<()> {
-        check(unsafe { sys::vox_body_remove(self.get_mut(), mesh.0) })?;
-        self.previous.remove(&mesh);
+    pub fn remove(&mut self, body: Body) -> Result<()> {
+        check(unsafe { sys::vox_body_remove(self.get_mut(), body.0) })?;
+        self.previous.remove(&body);
+        self.fields.remove(&body);
         Ok(())
     }
 
     /// Whether `mesh` names a mesh of this grid.
-    pub fn contains(&self, mesh: Mesh) -> bool {
-        unsafe { sys::vox_body_is_valid(self.get(), mesh.0) != 0 }
+    pub fn contains(&self, body: Body) -> bool {
+        unsafe { sys::vox_body_is_valid(self.get(), body.0) != 0 }
     }
 
     /// All meshes and shapes, in the order of their ids.
-    pub fn meshes(&self) -> Vec<Mesh> {
+    pub fn bodies(&self) -> Vec<Body> {
         copy_all(|meshes, capacity, count| unsafe { sys::vox_grid_get_bodies(self.get(), meshes, capacity, count) })
             .unwrap_or_default()
             .into_iter()
-            .map(Mesh)
+            .map(Body)
             .collect()
     }
 
-    fn info_of(&self, mesh: Mesh) -> Result<sys::vox_body_info> {
+    fn info_of(&self, mesh: Body) -> Result<sys::vox_body_info> {
         let mut info = sized!(sys::vox_body_info);
         check(unsafe { sys::vox_body_get_info(self.get(), mesh.0, &mut info) })?;
         Ok(info)
     }
 
     /// A mesh or a shape as it is now.
-    pub fn info(&self, mesh: Mesh) -> Result<MeshInfo> {
-        let info = self.info_of(mesh)?;
-        Ok(MeshInfo {
+    pub fn info(&self, body: Body) -> Result<BodyInfo> {
+        let info = self.info_of(body)?;
+        Ok(BodyInfo {
             user_data: info.user_data,
             shape: info.shape as sys::vox_shape_kind,
             vertex_count: info.positions.count,
@@ -347,14 +356,14 @@ impl Grid {
     }
 
     /// The tetrahedra of a mesh as they were given, those that are disabled or removed, too.
-    pub fn tets(&self, mesh: Mesh) -> Result<Vec<[u32; 4]>> {
+    pub fn tets(&self, mesh: Body) -> Result<Vec<[u32; 4]>> {
         copy_all(|tets: *mut [u32; 4], capacity, count| unsafe {
             sys::vox_mesh_get_tets(self.get(), mesh.0, tets.cast(), null_mut(), capacity, count)
         })
     }
 
     /// Of each tetrahedron of a mesh, whether it is neither disabled nor removed.
-    pub fn enabled_tets(&self, mesh: Mesh) -> Result<Vec<bool>> {
+    pub fn enabled_tets(&self, mesh: Body) -> Result<Vec<bool>> {
         let enabled: Vec<u8> = copy_all(|enabled, capacity, count| unsafe {
             sys::vox_mesh_get_tets(self.get(), mesh.0, null_mut(), enabled, capacity, count)
         })?;
@@ -362,12 +371,12 @@ impl Grid {
     }
 
     /// The number given when the mesh was added.
-    pub fn user_data(&self, mesh: Mesh) -> Result<u64> {
-        Ok(self.info_of(mesh)?.user_data)
+    pub fn user_data(&self, body: Body) -> Result<u64> {
+        Ok(self.info_of(body)?.user_data)
     }
 
     /// The positions of a mesh, before its transform, if they are of type `T`.
-    pub fn positions<T: Scalar>(&self, mesh: Mesh) -> Result<&[[T; 3]]> {
+    pub fn positions<T: Scalar>(&self, mesh: Body) -> Result<&[[T; 3]]> {
         let info = self.info_of(mesh)?;
         check_format::<T>(&info)?;
         // SAFETY: all meshes have positions of their own, one after the other, which only &mut self can change.
@@ -376,7 +385,7 @@ impl Grid {
 
     /// The positions of a mesh, to be written before a step, if they are of type `T`, that of the array given to
     /// [`Grid::add`].
-    pub fn positions_mut<T: Scalar>(&mut self, mesh: Mesh) -> Result<&mut [[T; 3]]> {
+    pub fn positions_mut<T: Scalar>(&mut self, mesh: Body) -> Result<&mut [[T; 3]]> {
         let info = self.info_of(mesh)?;
         check_format::<T>(&info)?;
         let mut positions = null_mut();
@@ -390,7 +399,7 @@ impl Grid {
 
     /// The positions that the vertices of a mesh had before, copied. From there they move to their positions in the
     /// following steps, which also find impacts. Set them before each step. Experimental.
-    pub fn set_previous_positions<T: Scalar>(&mut self, mesh: Mesh, positions: &[[T; 3]]) -> Result<()> {
+    pub fn set_previous_positions<T: Scalar>(&mut self, mesh: Body, positions: &[[T; 3]]) -> Result<()> {
         let copy: Vec<[f64; 3]> = positions.iter().map(|p| p.map(T::into)).collect();
         check(unsafe { sys::vox_mesh_bind_previous_positions(self.get_mut(), mesh.0, &positions_to_c(&copy)) })?;
         self.previous.insert(mesh, copy); // what C borrowed before is dropped
@@ -398,7 +407,7 @@ impl Grid {
     }
 
     /// The mesh stands still in the following steps.
-    pub fn end_previous_positions(&mut self, mesh: Mesh) -> Result<()> {
+    pub fn end_previous_positions(&mut self, mesh: Body) -> Result<()> {
         check(unsafe { sys::vox_mesh_bind_previous_positions(self.get_mut(), mesh.0, null()) })?;
         self.previous.remove(&mesh);
         Ok(())
@@ -406,53 +415,53 @@ impl Grid {
 
     /// Moves a mesh as a whole by an affine map, three rows of four; `None`: not at all. A shape is rotated, moved, and
     /// scaled along all axes alike.
-    pub fn set_transform(&mut self, mesh: Mesh, matrix: Option<&[f64; 12]>) -> Result<()> {
+    pub fn set_transform(&mut self, body: Body, matrix: Option<&[f64; 12]>) -> Result<()> {
         let matrix = matrix.map_or(null(), std::ptr::from_ref);
-        check(unsafe { sys::vox_body_set_transform(self.get_mut(), mesh.0, matrix) })
+        check(unsafe { sys::vox_body_set_transform(self.get_mut(), body.0, matrix) })
     }
 
     /// Sets what a mesh collides with.
-    pub fn set_filter(&mut self, mesh: Mesh, filter: Filter) -> Result<()> {
-        check(unsafe { sys::vox_body_set_filter(self.get_mut(), mesh.0, &filter.to_c()) })
+    pub fn set_filter(&mut self, body: Body, filter: Filter) -> Result<()> {
+        check(unsafe { sys::vox_body_set_filter(self.get_mut(), body.0, &filter.to_c()) })
     }
 
     /// What a mesh collides with. Neither category nor mask is 0.
-    pub fn filter(&self, mesh: Mesh) -> Result<Filter> {
-        Ok(Filter::of(&self.info_of(mesh)?.filter))
+    pub fn filter(&self, body: Body) -> Result<Filter> {
+        Ok(Filter::of(&self.info_of(body)?.filter))
     }
 
     /// Leaves a mesh out of the following steps, or takes it in again.
-    pub fn set_enabled(&mut self, mesh: Mesh, enabled: bool) -> Result<()> {
-        check(unsafe { sys::vox_body_set_enabled(self.get_mut(), mesh.0, enabled.into()) })
+    pub fn set_enabled(&mut self, body: Body, enabled: bool) -> Result<()> {
+        check(unsafe { sys::vox_body_set_enabled(self.get_mut(), body.0, enabled.into()) })
     }
 
     /// Whether two meshes collide, if their filters let them.
-    pub fn set_pair_enabled(&mut self, a: Mesh, b: Mesh, enabled: bool) -> Result<()> {
+    pub fn set_pair_enabled(&mut self, a: Body, b: Body, enabled: bool) -> Result<()> {
         check(unsafe { sys::vox_grid_set_pair_enabled(self.get_mut(), a.0, b.0, enabled.into()) })
     }
 
     /// Makes the next step process a mesh even if it did not move, for measurements.
-    pub fn mark_moved(&mut self, mesh: Mesh) -> Result<()> {
-        check(unsafe { sys::vox_body_mark_moved(self.get_mut(), mesh.0) })
+    pub fn mark_moved(&mut self, body: Body) -> Result<()> {
+        check(unsafe { sys::vox_body_mark_moved(self.get_mut(), body.0) })
     }
 
     // ---- cutting and growing ----
 
     /// Replaces vertices, tetrahedra and positions of a mesh.
-    pub fn set_topology<T: Scalar>(&mut self, mesh: Mesh, positions: &[[T; 3]], tets: &[[u32; 4]]) -> Result<()> {
+    pub fn set_topology<T: Scalar>(&mut self, mesh: Body, positions: &[[T; 3]], tets: &[[u32; 4]]) -> Result<()> {
         let desc = mesh_desc(positions, tets);
         check(unsafe { sys::vox_mesh_set_topology(self.get_mut(), mesh.0, &desc) })
     }
 
     /// Disables tetrahedra, so that they contain nothing, or enables them again.
-    pub fn set_tets_enabled(&mut self, mesh: Mesh, tets: &[u32], enabled: bool) -> Result<()> {
+    pub fn set_tets_enabled(&mut self, mesh: Body, tets: &[u32], enabled: bool) -> Result<()> {
         check(unsafe {
             sys::vox_mesh_set_tets_enabled(self.get_mut(), mesh.0, pointer(tets), tets.len() as u64, enabled.into())
         })
     }
 
     /// Gives tetrahedra other corners: `tets[i]` gets `corners[i]`.
-    pub fn replace_tets(&mut self, mesh: Mesh, tets: &[u32], corners: &[[u32; 4]]) -> Result<()> {
+    pub fn replace_tets(&mut self, mesh: Body, tets: &[u32], corners: &[[u32; 4]]) -> Result<()> {
         check_length("corners", corners.len(), tets.len())?;
         check(unsafe {
             sys::vox_mesh_replace_tets(
@@ -466,7 +475,7 @@ impl Grid {
     }
 
     /// Adds tetrahedra; the index of the first.
-    pub fn append_tets(&mut self, mesh: Mesh, corners: &[[u32; 4]]) -> Result<u32> {
+    pub fn append_tets(&mut self, mesh: Body, corners: &[[u32; 4]]) -> Result<u32> {
         let mut first = 0;
         check(unsafe {
             sys::vox_mesh_append_tets(self.get_mut(), mesh.0, pointer(corners).cast(), corners.len() as u64, &mut first)
@@ -475,18 +484,18 @@ impl Grid {
     }
 
     /// Removes tetrahedra. Their vertices stay.
-    pub fn remove_tets(&mut self, mesh: Mesh, tets: &[u32]) -> Result<()> {
+    pub fn remove_tets(&mut self, mesh: Body, tets: &[u32]) -> Result<()> {
         check(unsafe { sys::vox_mesh_remove_tets(self.get_mut(), mesh.0, pointer(tets), tets.len() as u64) })
     }
 
-    fn append(&mut self, mesh: Mesh, desc: &sys::vox_vertices_desc) -> Result<u32> {
+    fn append(&mut self, mesh: Body, desc: &sys::vox_vertices_desc) -> Result<u32> {
         let mut first = 0;
         check(unsafe { sys::vox_mesh_append_vertices(self.get_mut(), mesh.0, desc, &mut first) })?;
         Ok(first)
     }
 
     /// Adds vertices at these positions, which must be of the mesh's type; the index of the first.
-    pub fn append_vertices<T: Scalar>(&mut self, mesh: Mesh, positions: &[[T; 3]]) -> Result<u32> {
+    pub fn append_vertices<T: Scalar>(&mut self, mesh: Body, positions: &[[T; 3]]) -> Result<u32> {
         check_format::<T>(&self.info_of(mesh)?)?;
         self.positions_mut::<T>(mesh)?; // of its own, also in a mesh that has had no vertices
         let desc = sys::vox_vertices_desc {
@@ -498,7 +507,7 @@ impl Grid {
     }
 
     /// Adds copies of vertices, where these are; the index of the first.
-    pub fn append_copies(&mut self, mesh: Mesh, copies_of: &[u32]) -> Result<u32> {
+    pub fn append_copies(&mut self, mesh: Body, copies_of: &[u32]) -> Result<u32> {
         let desc = sys::vox_vertices_desc {
             count: copies_of.len() as u64,
             copies_of: pointer(copies_of),
@@ -508,7 +517,7 @@ impl Grid {
     }
 
     /// Removes vertices that no enabled tetrahedron has.
-    pub fn remove_vertices(&mut self, mesh: Mesh, vertices: &[u32]) -> Result<()> {
+    pub fn remove_vertices(&mut self, mesh: Body, vertices: &[u32]) -> Result<()> {
         check(unsafe {
             sys::vox_mesh_remove_vertices(self.get_mut(), mesh.0, pointer(vertices), vertices.len() as u64)
         })
@@ -552,8 +561,8 @@ impl Grid {
     pub fn find_constraints(&mut self, options: ConstraintOptions) -> Result<()> {
         let desc = sys::vox_constraint_desc {
             method: options.method as sys::vox_depth_method,
-            body_a: options.a.map_or(sys::VOX_NULL_BODY, Mesh::id),
-            body_b: options.b.map_or(sys::VOX_NULL_BODY, Mesh::id),
+            body_a: options.a.map_or(sys::VOX_NULL_BODY, Body::id),
+            body_b: options.b.map_or(sys::VOX_NULL_BODY, Body::id),
             mask: options.mask,
             closest_budget: options.closest_budget,
             ..sized!(sys::vox_constraint_desc)

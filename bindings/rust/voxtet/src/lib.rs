@@ -19,9 +19,9 @@ pub use cell_size::{
 };
 pub use error::{Error, ErrorCode, Result};
 pub use foreign::{tune, CellsKept, CellsQueried, CellsStored, ForeignGrid, KnownGrid, Primitives, TuneOptions};
-pub use grid::{step_grids, Failure, Grid, MeshInfo};
+pub use grid::{step_grids, BodyInfo, Failure, Grid};
 pub use locator::{Locator, QueryOptions};
-pub use options::{ConstraintOptions, DepthMethod, Filter, GridOptions, Mesh, MeshOptions, Reference};
+pub use options::{Body, ConstraintOptions, DepthMethod, Filter, GridOptions, MeshOptions, Reference};
 pub use shape::{polyline, Shape, ShapeOptions};
 
 #[cfg(feature = "rayon")]
@@ -77,7 +77,7 @@ pub mod constraint_kind {
     };
 }
 
-/// Values of [`MeshInfo::shape`].
+/// Values of [`BodyInfo::shape`].
 pub mod shape_kind {
     pub use voxtet_sys::{
         VOX_SHAPE_BOX as BOX, VOX_SHAPE_CAPSULE as CAPSULE, VOX_SHAPE_CYLINDER as CYLINDER, VOX_SHAPE_FIELD as FIELD,

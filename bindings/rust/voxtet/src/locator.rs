@@ -5,7 +5,7 @@ use voxtet_sys as sys;
 use crate::error::{check, sized};
 use crate::grid::positions_to_c;
 use crate::options::Scalar;
-use crate::{BoxHit, ClosestHit, Grid, Location, Mesh, PointHit, RayHit, Result, TrackPiece};
+use crate::{Body, BoxHit, ClosestHit, Grid, Location, PointHit, RayHit, Result, TrackPiece};
 
 /// Which meshes answer, and how far to look. The default: all, at any distance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -17,7 +17,7 @@ pub struct QueryOptions {
     /// Only meshes whose category had a bit in common with it; 0: all.
     pub mask: u64,
     /// Not this mesh.
-    pub excluded: Option<Mesh>,
+    pub excluded: Option<Body>,
     /// For [`Locator::locate`] and [`Locator::find_closest`], no further than this; 0: any distance.
     pub max_distance: f64,
 }
@@ -28,7 +28,7 @@ impl QueryOptions {
             flags: u32::from(self.first_hit) * sys::VOX_QUERY_FIRST_HIT
                 | u32::from(self.extrapolate) * sys::VOX_QUERY_EXTRAPOLATE,
             mask: self.mask,
-            excluded: self.excluded.map_or(sys::VOX_NULL_BODY, Mesh::id),
+            excluded: self.excluded.map_or(sys::VOX_NULL_BODY, Body::id),
             max_distance: self.max_distance,
             ..sized!(sys::vox_query_desc)
         }
@@ -89,9 +89,9 @@ impl Locator {
     }
 
     /// The number that a mesh was added with.
-    pub fn user_data(&self, mesh: Mesh) -> Result<u64> {
+    pub fn user_data(&self, body: Body) -> Result<u64> {
         let mut user_data = 0;
-        check(unsafe { sys::vox_locator_get_user_data(self.0, mesh.id(), &mut user_data) })?;
+        check(unsafe { sys::vox_locator_get_user_data(self.0, body.id(), &mut user_data) })?;
         Ok(user_data)
     }
 

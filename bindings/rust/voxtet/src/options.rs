@@ -10,9 +10,9 @@ use crate::CostWeights;
 
 /// Names a mesh or a rigid shape in its grid. A removed one's id is never used again, so a stale one is an error and nothing worse.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Mesh(pub(crate) u32);
+pub struct Body(pub(crate) u32);
 
-impl Mesh {
+impl Body {
     /// The number that contacts, pairs and constraints have in `body_a` and `body_b`.
     pub fn id(self) -> u32 {
         self.0
@@ -24,20 +24,20 @@ impl Mesh {
     }
 }
 
-impl fmt::Debug for Mesh {
+impl fmt::Debug for Body {
     fn fmt(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(to, "Mesh({})", self.0)
+        write!(to, "Body({})", self.0)
     }
 }
 
-impl PartialEq<u32> for Mesh {
+impl PartialEq<u32> for Body {
     fn eq(&self, id: &u32) -> bool {
         self.0 == *id
     }
 }
 
-impl PartialEq<Mesh> for u32 {
-    fn eq(&self, mesh: &Mesh) -> bool {
+impl PartialEq<Body> for u32 {
+    fn eq(&self, mesh: &Body) -> bool {
         *self == mesh.0
     }
 }
@@ -129,9 +129,9 @@ pub struct ConstraintOptions {
     /// How depths are found.
     pub method: DepthMethod,
     /// Only pairs of this mesh.
-    pub a: Option<Mesh>,
+    pub a: Option<Body>,
     /// Only its pair with `a`.
-    pub b: Option<Mesh>,
+    pub b: Option<Body>,
     /// Only pairs in which the category of a mesh has a bit in common with it; 0: all.
     pub mask: u64,
     /// Most searches for a closest point; 0: no limit.

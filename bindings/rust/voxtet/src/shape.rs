@@ -1,12 +1,14 @@
 //! Rigid shapes: floors, tools, terrain.
 
+use std::ffi::c_void;
+use std::panic::{catch_unwind, AssertUnwindSafe};
 use std::ptr::null;
 
 use voxtet_sys as sys;
 
 use crate::error::{check, sized};
 use crate::grid::{pointer, positions_to_c};
-use crate::{Error, ErrorCode, Filter, Grid, Mesh, Result};
+use crate::{Body, Error, ErrorCode, Filter, Grid, Result};
 
 /// A rigid shape, in a frame of its own: [`Grid::set_transform`] places it. Lengths may be 0. Experimental.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -126,23 +128,76 @@ impl Shape<'_> {
     }
 }
 
+unsafe extern "C" fn evaluate<F>(
+    at: *const f64,
+    count: u64,
+    distances: *mut f64,
+    gradients: *mut f64,
+    user: *mut c_void,
+) where
+    F: Fn([f64; 3]) -> (f64, [f64; 3]),
+{
+    // SAFETY: `user` lives as long as the shape; the arrays have `count` elements.
+    let field = unsafe { &*user.cast::<F>() };
+    for i in 0..count as usize {
+        let point = unsafe { *at.cast::<[f64; 3]>().add(i) };
+        // No distance makes the step fail. The panic was reported by its hook.
+        let (distance, gradient) = catch_unwind(AssertUnwindSafe(|| field(point))).unwrap_or((f64::NAN, [0.0; 3]));
+        unsafe {
+            *distances.add(i) = distance;
+            *gradients.cast::<[f64; 3]>().add(i) = gradient;
+        }
+    }
+}
+
 impl Grid {
     /// Adds a rigid shape, which is copied, and takes part from the next step on. The vertices of meshes collide with it. A
     /// shape has no vertices: its constraints have vertices of `body_a` alone. The id is good wherever a shape has what
     /// a mesh has: transform, filter, user data, whether it is enabled. Experimental.
-    pub fn add_shape(&mut self, shape: Shape<'_>, options: ShapeOptions) -> Result<Mesh> {
-        let mut desc = shape.to_c()?;
+    pub fn add_shape(&mut self, shape: Shape<'_>, options: ShapeOptions) -> Result<Body> {
+        let desc = shape.to_c()?;
+        self.insert_shape(desc, options)
+    }
+
+    fn insert_shape(&mut self, mut desc: sys::vox_shape_desc, options: ShapeOptions) -> Result<Body> {
         desc.user_data = options.user_data;
         desc.filter = options.filter.to_c();
         let mut id = sys::VOX_NULL_BODY;
         // SAFETY: a grid that lives; the arrays of the shape are copied.
         check(unsafe { sys::vox_shape_insert(self.as_ptr(), &desc, &mut id) })?;
-        Ok(Mesh(id))
+        Ok(Body(id))
+    }
+
+    /// Adds a shape that is where a function is not positive, in a box around the origin with half these sides. The function
+    /// gives the distance of a point in the shape's frame, and a gradient that points out of the shape. Outside, the distance
+    /// is at most the true one. It is called on several threads at once. If it panics, the step fails. Experimental.
+    ///
+    /// ```
+    /// let mut grid = voxtet::Grid::new()?;
+    /// let ball = |[x, y, z]: [f64; 3]| ((x * x + y * y + z * z).sqrt() - 1.0, [x, y, z]);
+    /// grid.add_field([1.0; 3], ball, Default::default())?;
+    /// # Ok::<(), voxtet::Error>(())
+    /// ```
+    pub fn add_field<F>(&mut self, half_size: [f64; 3], field: F, options: ShapeOptions) -> Result<Body>
+    where
+        F: Fn([f64; 3]) -> (f64, [f64; 3]) + Send + Sync + 'static,
+    {
+        let field = Box::new(field);
+        let desc = sys::vox_shape_desc {
+            kind: sys::VOX_SHAPE_FIELD,
+            half_size,
+            field: Some(evaluate::<F>),
+            field_user: std::ptr::from_ref::<F>(&field).cast_mut().cast(),
+            ..sized!(sys::vox_shape_desc)
+        };
+        let id = self.insert_shape(desc, options)?;
+        self.fields.insert(id, field);
+        Ok(id)
     }
 
     /// Where a shape was before, as in [`Grid::set_transform`]. In the following steps it moves from there to its
     /// transform, and they also find impacts with it; `None`: it stands still. Experimental.
-    pub fn set_previous_transform(&mut self, shape: Mesh, matrix: Option<&[f64; 12]>) -> Result<()> {
+    pub fn set_previous_transform(&mut self, shape: Body, matrix: Option<&[f64; 12]>) -> Result<()> {
         let matrix = matrix.map_or(null(), std::ptr::from_ref);
         // SAFETY: a grid that lives; the matrix is copied.
         check(unsafe { sys::vox_shape_set_previous_transform(self.as_ptr(), shape.0, matrix) })

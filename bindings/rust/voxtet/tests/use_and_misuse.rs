@@ -26,7 +26,7 @@ fn block(n: u32, x: f32) -> (Vec<[f32; 3]>, Vec<[u32; 4]>) {
 }
 
 /// Two blocks of n^3 cubes, of which half is in the other.
-fn blocks_of(n: u32, options: GridOptions) -> (Grid, Mesh, Mesh) {
+fn blocks_of(n: u32, options: GridOptions) -> (Grid, Body, Body) {
     let mut grid = Grid::with_options(options).unwrap();
     let (positions, tets) = block(n, 0.0);
     let a = grid.add(&positions, &tets).unwrap();
@@ -35,7 +35,7 @@ fn blocks_of(n: u32, options: GridOptions) -> (Grid, Mesh, Mesh) {
     (grid, a, b)
 }
 
-fn two_blocks(options: GridOptions) -> (Grid, Mesh, Mesh) {
+fn two_blocks(options: GridOptions) -> (Grid, Body, Body) {
     blocks_of(6, options)
 }
 
@@ -58,6 +58,22 @@ fn touch(shape: Shape<'_>, at: [f64; 3]) -> (f64, [f64; 3]) {
     assert_ne!(grid.info(body).unwrap().shape, shape_kind::NONE);
     assert_eq!(grid.info(point).unwrap().shape, shape_kind::NONE);
     (c.gap, c.normal)
+}
+
+#[test]
+fn fields() {
+    let mut grid = Grid::with_options(GridOptions { constraints: true, ..GridOptions::default() }).unwrap();
+    grid.add(&[[0.0, 0.0, 0.75]], &[]).unwrap();
+    let radius = vec![1.0];
+    let ball = move |[x, y, z]: [f64; 3]| ((x * x + y * y + z * z).sqrt() - radius[0], [x, y, z]);
+    let body = grid.add_field([1.0; 3], ball, ShapeOptions::default()).unwrap();
+    grid.step().unwrap();
+    assert!((grid.constraints().unwrap()[0].gap + 0.25).abs() < 1e-12);
+    grid.remove(body).unwrap();
+    grid.add_field([1.0; 3], |_| panic!("no distance"), ShapeOptions::default()).unwrap();
+    assert!(grid.step().unwrap_err().to_string().contains("the field of a shape has distance nan"));
+    grid.clear().unwrap();
+    assert!(grid.add_field([-1.0; 3], |at| (1.0, at), ShapeOptions::default()).is_err());
 }
 
 #[test]
@@ -217,7 +233,7 @@ fn constraints() {
     let mut kinds = [0; 4];
     for c in grid.constraints().unwrap() {
         kinds[c.kind as usize] += 1;
-        let at = [c.body_a, c.body_b].map(|id| grid.positions::<f32>(Mesh::from_id(id)).unwrap());
+        let at = [c.body_a, c.body_b].map(|id| grid.positions::<f32>(Body::from_id(id)).unwrap());
         let along = |i: usize| {
             let x = at[usize::from(i >= c.count_a as usize)][c.vertices[i] as usize].map(f64::from);
             c.weights[i] * (0..3).map(|k| c.normal[k] * x[k]).sum::<f64>()
@@ -447,7 +463,7 @@ fn many_grids() {
     let mut grids: Vec<Grid> = (0..20).map(|_| two_blocks(GridOptions::default()).0).collect();
     step_grids(&mut grids, 2).unwrap();
     assert!(grids.iter().all(|grid| grid.hash() == grids[0].hash() && !grid.contacts().is_empty()));
-    let mesh = grids[7].meshes()[0];
+    let mesh = grids[7].bodies()[0];
     grids[7].positions_mut(mesh).unwrap()[3][0] = f32::INFINITY;
     let (error, codes) = step_grids(&mut grids, ALL_CORES).unwrap_err();
     assert!(error.to_string().starts_with("grid 7: "), "{error}");
@@ -611,10 +627,10 @@ fn anything_goes() {
     let (mut refused, mut done) = (0, 0);
     for _ in 0..3000 {
         let mesh = match random(4) {
-            0 => Mesh::from_id(random(1 << 32) as u32),
+            0 => Body::from_id(random(1 << 32) as u32),
             _ => {
-                let meshes = grid.meshes();
-                meshes.get(random(meshes.len() as u64 + 1) as usize).copied().unwrap_or(Mesh::from_id(0))
+                let meshes = grid.bodies();
+                meshes.get(random(meshes.len() as u64 + 1) as usize).copied().unwrap_or(Body::from_id(0))
             }
         };
         let list: Vec<u32> = (0..random(4)).map(|_| random(1500) as u32).collect();
@@ -630,7 +646,7 @@ fn anything_goes() {
             6 => grid.set_transform(mesh, Some(&[1.0, 0.0, 0.0, number, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0])),
             7 => grid.set_transform(mesh, None),
             8 => grid.set_cell_size(number),
-            9 => grid.set_pair_enabled(mesh, Mesh::from_id(random(9000) as u32), random(2) == 0),
+            9 => grid.set_pair_enabled(mesh, Body::from_id(random(9000) as u32), random(2) == 0),
             10 => {
                 let mask = u64::MAX >> random(64);
                 let self_rings = random(3) as u32;
@@ -639,7 +655,7 @@ fn anything_goes() {
             11 => grid.set_enabled(mesh, random(2) == 0),
             12 => grid.set_flags(random(2) == 0, random(2) == 0, random(2) == 0),
             13 if random(9) == 0 => grid.remove(mesh),
-            14 if grid.meshes().len() < 4 => {
+            14 if grid.bodies().len() < 4 => {
                 let (positions, tets) = block(3, random(40) as f32 / 10.0);
                 grid.add(&positions, &tets).map(drop)
             }

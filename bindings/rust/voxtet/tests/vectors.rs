@@ -3,9 +3,9 @@
 use serde_json::Value;
 use std::path::PathBuf;
 use voxtet::{
-    suggest_cell_size, CellSizeOptions, CellSizeResult, CellsKept, CellsQueried, CellsStored, ConstraintOptions,
-    CostModel, DepthMethod, Filter, ForeignGrid, ForeignWeights, Grid, GridOptions, KnownGrid, Locator, Mesh,
-    MeshArrays, MeshOptions, Primitives, QueryOptions, Timing, TuneOptions,
+    suggest_cell_size, Body, CellSizeOptions, CellSizeResult, CellsKept, CellsQueried, CellsStored, ConstraintOptions,
+    CostModel, DepthMethod, Filter, ForeignGrid, ForeignWeights, Grid, GridOptions, KnownGrid, Locator, MeshArrays,
+    MeshOptions, Primitives, QueryOptions, Timing, TuneOptions,
 };
 
 fn bytes_of<T: Copy>(items: &[T]) -> &[u8] {
@@ -81,7 +81,7 @@ impl Replay {
     }
 
     fn make(&mut self, name: &str, call: &Value) -> voxtet::Result<()> {
-        let mesh = Mesh::from_id(call["mesh"].as_u64().unwrap_or(0) as u32);
+        let mesh = Body::from_id(call["mesh"].as_u64().unwrap_or(0) as u32);
         let positions = |name: &str| self.array::<3, f64>(call, name, "count", f64_of);
         let all = QueryOptions::default();
         match name {
@@ -153,7 +153,7 @@ impl Replay {
             "set_filter" => self.grid.set_filter(mesh, filter_of(&call["filter"]))?,
             "set_enabled" => self.grid.set_enabled(mesh, call["enabled"] == 1)?,
             "set_pair_enabled" => {
-                let pair = ["body_a", "body_b"].map(|name| Mesh::from_id(call[name].as_u64().unwrap() as u32));
+                let pair = ["body_a", "body_b"].map(|name| Body::from_id(call[name].as_u64().unwrap() as u32));
                 self.grid.set_pair_enabled(pair[0], pair[1], call["enabled"] == 1)?;
             }
             "set_flags" => {
@@ -219,7 +219,7 @@ impl Replay {
     fn meshes(&self, call: &Value) {
         let found: Vec<Value> = self
             .grid
-            .meshes()
+            .bodies()
             .into_iter()
             .map(|mesh| {
                 let info = self.grid.info(mesh).unwrap();

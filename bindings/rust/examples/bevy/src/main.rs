@@ -5,7 +5,7 @@ use bevy_app::{App, Plugin, PostUpdate, Update};
 use bevy_ecs::prelude::*;
 use bevy_math::Vec3;
 use bevy_transform::{prelude::*, TransformSystems};
-use voxtet::{pair_state, Grid, GridOptions, Mesh, MeshOptions};
+use voxtet::{pair_state, Body, Grid, GridOptions, MeshOptions};
 
 /// Vertices in the frame of the entity, which a simulation may move, and tetrahedra over them.
 #[derive(Component)]
@@ -17,7 +17,7 @@ struct SoftBody {
 
 /// The mesh of a soft body in the grid.
 #[derive(Component)]
-struct InGrid(Mesh);
+struct InGrid(Body);
 
 /// What the deepest vertex of a body needs to get out of the body that it is in; zero where none is inside.
 #[derive(Component, Default)]
