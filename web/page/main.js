@@ -2,7 +2,7 @@
 import { Chart, hue, length, more, time } from "./chart.js";
 import { predictedAt } from "./curve.js";
 import { SAMPLES } from "./samples.js";
-import { KINDS } from "./scene.js";
+import { KINDS, TOOL } from "./scene.js";
 import { View } from "./view.js";
 
 const DROPPED = KINDS.slice(0, 5); // what the page makes itself
@@ -83,6 +83,7 @@ function showFacts() {
     [facts.contacts === 1 ? "contact" : "contacts", count(facts.contacts)],
     ["touching pairs", count(facts.pairs)],
     ["deepest overlap", facts.deepest.toFixed(3)],
+    ...(tool ? [["on the tool", count(facts.touched)]] : []),
     [facts.asleep ? "at rest" : paused ? "paused" : "moving", ""],
   ]);
   list("more-facts", [
@@ -251,6 +252,7 @@ const heard = {
     playgroundApi.facts = facts;
     playgroundApi.hash = hash;
     playgroundApi.positions = frame.positions;
+    playgroundApi.touched = frame.touched;
     view.setFrame(frame, seen());
   },
   curve(sent) {
@@ -369,10 +371,24 @@ document.addEventListener("drop", async (event) => {
 const canvas = find("view");
 let held = null; // the point that is dragged
 let stroke = null; // where a cut began: { at }
+let tool = null; // in the hand: { kind, point, along, moves }
 
 const mode = () => document.querySelector('input[name="mode"]:checked').value;
-const hints = { drag: "Drag a body. Drag beside it to orbit.", cut: "Draw a line across bodies.", look: "Drag to orbit, pinch or turn the wheel to zoom." };
-for (const input of document.getElementsByName("mode")) input.addEventListener("change", () => (find("hint").textContent = hints[mode()]));
+const hints = { drag: "Drag a body. Drag beside it to orbit.", cut: "Draw a line across bodies.", look: "Drag to orbit, pinch or turn the wheel to zoom.",
+  sphere: "Drag the sphere through the bodies.", blade: "Drag the blade through the bodies: it shows the edges that it crosses." };
+for (const input of document.getElementsByName("mode"))
+  input.addEventListener("change", () => {
+    find("hint").textContent = hints[mode()];
+    const kind = TOOL[mode()] ?? TOOL.none;
+    tool = kind === TOOL.none ? null : { kind, point: view.shifted(view.controls.target.toArray(), 0, 2.4), along: view.aslant };
+    view.setTool(kind, tool?.along);
+    hold(tool?.point ?? [0, 0, 0]);
+  });
+
+function hold(point) {
+  if (tool) tool.point = point;
+  act("hold", { tool: tool?.kind ?? TOOL.none, point, along: tool?.along ?? [1, 0] });
+}
 
 canvas.addEventListener(
   "pointerdown",
@@ -380,11 +396,14 @@ canvas.addEventListener(
     canvas.focus({ preventScroll: true });
     if (!event.isPrimary || event.button !== 0) return;
     const ray = view.ray(event.clientX, event.clientY);
-    const takes = mode() === "cut" || (mode() === "drag" && view.hits(ray));
+    const takes = tool || mode() === "cut" || (mode() === "drag" && view.hits(ray));
     view.controls.enabled = !takes;
     if (!takes) return;
     canvas.setPointerCapture(event.pointerId);
-    if (mode() === "cut") stroke = { at: [event.clientX, event.clientY] };
+    if (tool) {
+      tool.moves = true;
+      hold(view.beside(ray, tool.point));
+    } else if (mode() === "cut") stroke = { at: [event.clientX, event.clientY] };
     else {
       held = { pending: true };
       const point = await ask("grab", ray);
@@ -396,6 +415,7 @@ canvas.addEventListener(
 );
 canvas.addEventListener("pointermove", (event) => {
   if (stroke) drawStroke(stroke.at, [event.clientX, event.clientY]);
+  if (tool?.moves) hold(view.beside(view.ray(event.clientX, event.clientY), tool.point));
   if (!held?.point) return;
   held.point = view.beside(view.ray(event.clientX, event.clientY), held.point);
   act("drag", { point: held.point });
@@ -404,6 +424,7 @@ function pointerEnds(event) {
   view.controls.enabled = true;
   if (held) act("letGo");
   held = null;
+  if (tool) tool.moves = false;
   if (stroke && event.type === "pointerup") cutBetween(stroke.at, [event.clientX, event.clientY]);
   stroke = null;
   find("stroke").classList.remove("drawn"); // it fades
@@ -444,7 +465,8 @@ canvas.addEventListener("keydown", async (event) => {
   if (way && held?.point) {
     held.point = view.shifted(held.point, 0.25 * way[0], 0.25 * way[1]);
     act("drag", { point: held.point });
-  } else if (way) view.turn(0.1 * -way[0], 0.1 * -way[1]);
+  } else if (way && tool) hold(view.shifted(tool.point, 0.25 * way[0], 0.25 * way[1]));
+  else if (way) view.turn(0.1 * -way[0], 0.1 * -way[1]);
   else if (event.key === "+" || event.key === "=") view.approach(0.9);
   else if (event.key === "-") view.approach(1 / 0.9);
   else if (event.key === " ") setPaused(!paused);

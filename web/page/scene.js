@@ -5,7 +5,9 @@ export const ENGINE = { paper: 1, fast: 2 };
 /** play_kind. */
 export const KINDS = ["ball", "box", "ring", "capsule", "bar", "file"];
 export const FIXED = KINDS.length;
-const FACTS = ["tets", "contacts", "deepest", "stepNs", "detectNs", "gridNs", "cellSize", "maxSpeed", "steps", "asleep", "bytes", "byteLimit", "pairs"];
+/** play_tool. */
+export const TOOL = { none: 0, sphere: 1, blade: 2 };
+const FACTS = ["tets", "contacts", "deepest", "stepNs", "detectNs", "gridNs", "cellSize", "maxSpeed", "steps", "asleep", "bytes", "byteLimit", "pairs", "touched", "toolX", "toolY", "toolZ"];
 
 /** A module with one instruction of the SIMD of 128 bits. */
 const simdProbe = Uint8Array.of(0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11);
@@ -143,6 +145,11 @@ export class Scene {
     this.#exports.play_let_go(this.#play);
   }
 
+  /** Takes a tool (TOOL) into the hand, or moves it; a blade stands along a direction. */
+  hold(tool, point, along) {
+    this.#numbers([...point, ...along], (at) => this.#check(this.#exports.play_hold(this.#play, tool, at, at + 24)));
+  }
+
   /** How many bodies were cut. */
   cut(eye, first, second) {
     return this.#numbers([...eye, ...first, ...second], (at) =>
@@ -173,6 +180,11 @@ export class Scene {
 
   penetrations() {
     return this.#list((at) => this.#exports.play_penetrations(this.#play, at), Float32Array, 6);
+  }
+
+  /** Lines: edges that the blade crosses. */
+  touched() {
+    return this.#list((at) => this.#exports.play_touched(this.#play, at), Float32Array, 6);
   }
 
   tiles() {

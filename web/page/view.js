@@ -3,7 +3,7 @@ import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { COLOURS, CONTACT, PALETTE, contactDots } from "../viewer/look.js";
 import { BodyMesh } from "./body.js";
-import { FIXED } from "./scene.js";
+import { FIXED, TOOL } from "./scene.js";
 
 const RING = 0x8d99a6;
 const MOST_CELLS = 4000; // that are drawn
@@ -82,6 +82,8 @@ export class View {
   #lattice;
   #arrows;
   #dots;
+  #touched;
+  #tools; // by TOOL
   #tiles;
   #windows;
   #cells;
@@ -131,7 +133,12 @@ export class View {
     this.#dots = new Changing(this.#scene, THREE.Points, new THREE.ShaderMaterial({
       ...contactDots, transparent: true, depthTest: false, uniforms: { color: { value: new THREE.Color(CONTACT) }, scale: { value: renderer.getPixelRatio() }, full: { value: DEEP } },
     }));
-    for (const changing of [this.#cells, this.#tiles, this.#windows, this.#arrows, this.#dots]) changing.hide();
+    this.#touched = new Changing(this.#scene, THREE.LineSegments, new THREE.LineBasicMaterial({ color: CONTACT, depthTest: false, transparent: true }));
+    for (const changing of [this.#cells, this.#tiles, this.#windows, this.#arrows, this.#dots, this.#touched]) changing.hide();
+    const steel = (opacity) => new THREE.MeshStandardMaterial({ color: 0xaab4c0, roughness: 0.35, side: THREE.DoubleSide, transparent: opacity < 1, opacity });
+    const blade = new THREE.PlaneGeometry(1.8, 1.8).rotateX(Math.PI / 2); // as tool.cpp has it
+    this.#tools = [null, new THREE.Mesh(new THREE.SphereGeometry(0.6, 48, 32), steel(1)), new THREE.Mesh(blade, steel(0.55))];
+    for (const tool of this.#tools) tool && this.#scene.add(Object.assign(tool, { visible: false, castShadow: true }));
     new ResizeObserver(() => this.#resize()).observe(canvas);
     this.#resize();
   }
@@ -193,7 +200,7 @@ export class View {
     return drawn;
   }
 
-  setFrame({ positions, contacts, tiles, windows }, { size, cells }) {
+  setFrame({ positions, contacts, touched, tiles, windows, facts }, { size, cells }) {
     this.#positions = positions;
     for (const shown of this.#bodies) {
       const own = positions.subarray(shown.first, shown.first + 3 * shown.body.vertexCount);
@@ -221,6 +228,13 @@ export class View {
       this.#dots.hide();
       this.#arrows.hide();
     }
+    if (touched && touched.length > 0) {
+      this.#touched.set(touched.length, (out) => {
+        out.set(touched);
+        return touched.length / 3;
+      });
+    } else this.#touched.hide();
+    for (const tool of this.#tools) tool?.position.set(facts.toolX, facts.toolY, facts.toolZ);
     for (const [changing, boxes] of [[this.#tiles, tiles], [this.#windows, windows]]) {
       if (boxes && boxes.length > 0) changing.set(12 * boxes.length, (out) => boxLines(boxes, out));
       else changing.hide();
@@ -341,6 +355,19 @@ export class View {
   shifted(point, right, up) {
     const [x, y] = [0, 1].map((column) => new THREE.Vector3().setFromMatrixColumn(this.#camera.matrixWorld, column));
     return new THREE.Vector3(...point).addScaledVector(x, right).addScaledVector(y, up).toArray();
+  }
+
+  /** Shows a tool alone; a blade stands along a direction. */
+  setTool(shown, [x, y] = [1, 0]) {
+    this.#tools.forEach((tool, kind) => tool && (tool.visible = kind === shown));
+    this.#tools[TOOL.blade].rotation.z = Math.atan2(y, x);
+    this.#needsDrawing = true;
+  }
+
+  /** The level direction halfway between to the right and away: a blade along it shows a side. */
+  get aslant() {
+    const right = new THREE.Vector3().setFromMatrixColumn(this.#camera.matrixWorld, 0);
+    return [right.x - right.y, right.y + right.x];
   }
 
   turn(left, up) {

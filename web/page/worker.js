@@ -42,10 +42,11 @@ function sendBodies() {
 function sendFrame() {
   const positions = scene.positions(bodies);
   const contacts = shown.contacts ? scene.penetrations() : null;
+  const touched = shown.contacts ? scene.touched() : null;
   const tiles = shown.tiles ? scene.tiles() : null;
   const windows = shown.windows ? scene.windows() : null;
-  const transfer = [positions, contacts, tiles, windows].filter(Boolean).map((array) => array.buffer);
-  send("frame", { positions, contacts, tiles, windows, facts: scene.facts(), hash: scene.hash() }, transfer);
+  const transfer = [positions, contacts, touched, tiles, windows].filter(Boolean).map((array) => array.buffer);
+  send("frame", { positions, contacts, touched, tiles, windows, facts: scene.facts(), hash: scene.hash() }, transfer);
 }
 
 /** What a failed act says. The scene is as it was before. */
@@ -217,6 +218,9 @@ const acts = {
   },
   letGo() {
     scene.letGo();
+  },
+  hold({ tool, point, along }) {
+    attempt(() => scene.hold(tool, point, along));
   },
   cut({ eye, first, second, id }) {
     const count = changed(() => scene.cut(eye, first, second));

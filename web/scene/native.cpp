@@ -6,6 +6,8 @@
 //     grab FROM TO, three numbers each
 //     drag POINT
 //     let-go
+//     hold TOOL POINT ALONG
+//     touched
 //     cut EYE FIRST SECOND
 //     configure ENGINE SELF STIFFNESS
 //     size CELL_SIZE
@@ -78,6 +80,12 @@ int main() {
             play_drag(play, n.data());
         } else if (command == "let-go") {
             play_let_go(play);
+        } else if (command == "hold") {
+            result = play_hold(play, whole(0), n.data() + 1, n.data() + 4);
+        } else if (command == "touched") {
+            std::uint32_t lines = 0;
+            (void)play_touched(play, &lines);
+            std::printf("touched %.0f, %u lines\n", play_get_facts(play)->touched, lines);
         } else if (command == "cut") {
             std::uint32_t count = 0;
             result = play_cut(play, n.data(), n.data() + 3, n.data() + 6, &count);

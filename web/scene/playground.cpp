@@ -16,6 +16,12 @@ namespace play {
 
 void fail(vox_result result, const std::string& text) { throw Failure{vox_fail(result, text.c_str())}; }
 
+std::span<const vox_constraint> constraints_of(const playground& play) {
+    vox_constraint_view view{};
+    if (vox_grid_get_constraints(play.grid, &view) != VOX_OK) return {};
+    return list(view.data, view.count);
+}
+
 namespace {
 
 constexpr double time_step = 1.0 / 60;
@@ -179,13 +185,6 @@ void pull(playground& play) {
     play.was_touched();
 }
 
-// The constraints of the last detection: vertices in other bodies; none before the first.
-std::span<const vox_constraint> constraints_of(const playground& play) {
-    vox_constraint_view view{};
-    if (vox_grid_get_constraints(play.grid, &view) != VOX_OK) return {};
-    return list(view.data, view.count);
-}
-
 // Inserts the meshes of a grid; the first is the fixed ring if it has its tetrahedra, else a ring comes
 // before it.
 void read_bodies(playground& play, const vox_grid* loaded, const Body& ring) {
@@ -232,13 +231,16 @@ template <class Fill>
 void replace(playground& play, const Fill& fill) {
     Sim old_sim = std::exchange(play.sim, make_sim(play.account, play.engine));
     std::vector<Body> old_bodies = std::exchange(play.bodies, {});
+    const Tool old_tool = std::exchange(play.tool, {});
     try {
         fill(old_bodies);
         check(vox_sim_get_grid(play.sim.get(), &play.grid));
         check(vox_grid_set_cell_size(play.grid, play.cell_size));
+        if (old_tool.kind != PLAY_NO_TOOL) take_tool(play, old_tool);
     } catch (...) {
         play.bodies = std::move(old_bodies);
         play.sim = std::move(old_sim);
+        play.tool = old_tool;
         throw;
     }
     play_let_go(&play);
@@ -402,6 +404,7 @@ vox_result play_step(playground* play) {
     return guard([&] {
         if (play->asleep()) return;
         pull(*play);
+        move_tool(*play);
         check(vox_sim_step(play->sim.get(), time_step));
         ++play->version;
         std::uint64_t hash = 0;
@@ -478,7 +481,8 @@ const float* play_penetrations(playground* play, uint32_t* out_count) {
     play->arrows.clear();
     for (const vox_constraint& c : constraints_of(*play)) {
         const auto body = find_body(*play, c.body_a);
-        if (body == play->bodies.end()) continue; // removed since the step
+        if (body == play->bodies.end() || (c.kind == VOX_CONSTRAINT_EDGE && c.body_b == play->tool.shape))
+            continue; // removed since the step, or drawn as a line
         const float* vertex = body->view.grid_positions + 3 * std::size_t{c.vertices[0]};
         play->arrows.insert(play->arrows.end(), vertex, vertex + 3);
         for (const double n : c.normal) play->arrows.push_back(static_cast<float>(-c.gap * n));
@@ -503,8 +507,15 @@ const play_facts* play_get_facts(playground* play) {
         facts.step_ns = counter("step_ns");
         facts.detect_ns = counter("detect_ns");
     }
-    facts.deepest = 0;
-    for (const vox_constraint& c : constraints_of(*play)) facts.deepest = std::max(facts.deepest, -c.gap);
+    facts.deepest = facts.touched = 0;
+    for (const vox_constraint& c : constraints_of(*play)) {
+        const bool is_tool = play->tool.kind != PLAY_NO_TOOL && c.body_b == play->tool.shape;
+        if (is_tool)
+            ++facts.touched;
+        else
+            facts.deepest = std::max(facts.deepest, -c.gap);
+    }
+    std::copy(play->tool.at.begin(), play->tool.at.end(), facts.tool);
     vox_grid_info info{};
     info.struct_size = sizeof info;
     if (vox_grid_get_info(play->grid, &info) == VOX_OK) {

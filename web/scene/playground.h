@@ -64,6 +64,18 @@ void play_let_go(playground* play);
 vox_result play_cut(playground* play, const double eye[3], const double first[3], const double second[3],
                     uint32_t* out_cut);
 
+typedef enum play_tool {
+    PLAY_NO_TOOL = 0,
+    PLAY_SPHERE = 1, /* pushes bodies */
+    PLAY_BLADE = 2,  /* upright; also shows the edges that it crosses */
+} play_tool;
+
+/* Takes a tool into the hand; a blade stands along a direction x, y. A new one is at the point at once. One
+ * that is held goes there, at 6 m/s at most. */
+vox_result play_hold(playground* play, uint32_t tool, const double point[3], const double along[2]);
+/* Six floats for each line: edges that the blade crosses, and sides of faces that its rim passes through. */
+const float* play_touched(playground* play, uint32_t* out_count);
+
 /* What there is to draw of a body. `serial` is another for each body and for each part of one; parts have the
  * `origin` of what they were cut from, the serial of a body that was dropped. */
 typedef struct play_body {
@@ -93,7 +105,9 @@ typedef struct play_facts {
     double steps;
     double asleep; /* 1: all bodies are */
     double bytes, byte_limit;
-    double pairs; /* of bodies that touch */
+    double pairs;   /* of bodies that touch */
+    double touched; /* constraints with the tool */
+    double tool[3]; /* where it is */
 } play_facts;
 const play_facts* play_get_facts(playground* play);
 /* Combines vox_grid_get_hash of all steps since the scene was made or loaded. */

@@ -75,6 +75,13 @@ struct Held {
     Vec offset; // from the point that is held
 };
 
+struct Tool {
+    std::uint32_t kind = PLAY_NO_TOOL;
+    vox_body shape = VOX_NULL_BODY;
+    Vec at{}, target{};
+    std::array<double, 2> along{1, 0};
+};
+
 } // namespace play
 
 struct playground {
@@ -92,6 +99,7 @@ struct playground {
     vox_body held_mesh = VOX_NULL_BODY;
     std::vector<play::Held> held;
     play::Vec held_target{};
+    play::Tool tool;
     std::vector<double> velocities; // scratch
     std::string text;
 
@@ -103,7 +111,7 @@ struct playground {
     vox_cost_weights weights{};
     vox_cell_size_result suggestion;
     double suggestion_numbers[7 + 2 * (VOX_CURVE_CAPACITY + VOX_TERM_CAPACITY + VOX_RULE_CAPACITY)];
-    std::vector<float> arrows, boxes;
+    std::vector<float> arrows, boxes, touched;
     std::vector<unsigned char> snapshot;
     mutable play_body shown;
     play_facts facts{};
@@ -124,5 +132,11 @@ void remove(playground& play, const Body& body);
 // Makes parts of a cut a pair again once they are apart.
 void part(playground& play);
 void check_engine(std::uint32_t engine);
+// Of the last detection; none before the first.
+std::span<const vox_constraint> constraints_of(const playground& play);
+// Holds a tool in place of the one before.
+void take_tool(playground& play, const Tool& tool);
+// Moves it towards its target.
+void move_tool(playground& play);
 
 } // namespace play

@@ -48,6 +48,38 @@ test("frames follow each other by themselves, stop, and go on", async () => {
   });
 });
 
+test("a sphere and a blade are dragged through the bodies, which are pushed as natively; the blade shows the edges that it crosses", async () => {
+  const drags = ["hold 1 0 -3 1 1 0", "hold 1 0 0 0.8 1 0", "hold 2 0 -3 1 1 1", "hold 2 0 0 1 1 1", "hold 0 0 0 0 1 0"];
+  const hashes = hashesOf(native([...scene, ...drags.flatMap((drag) => [drag, "steps 40"])]));
+  await visit("?scene=empty&stopped", async (page) => {
+    await dropAll(page, 1000);
+    await run(page, 200);
+    for (const [i, drag] of drags.entries()) {
+      const [tool, x, y, z, ...along] = drag.split(" ").slice(1).map(Number);
+      await page.evaluate((held) => playground.act("hold", held), { tool, point: [x, y, z], along });
+      assert.equal((await run(page, 40)).hash, hashes[i + 1], drag);
+    }
+    for (const name of ["sphere", "blade"]) { // the same by the pointer
+      await page.check(`input[value="${name}"]`);
+      await page.waitForTimeout(100);
+      const above = (await run(page, 1)).facts;
+      assert.ok(above.toolZ > 2 && above.touched === 0, JSON.stringify(above));
+      const [left, top] = await page.evaluate(() => playground.view.centre);
+      await page.mouse.move(left, top - 200);
+      await page.mouse.down();
+      await page.mouse.move(left, top, { steps: 5 });
+      await page.mouse.up();
+      const { facts: found } = await run(page, 60);
+      assert.ok(found.touched > 0 && Math.abs(found.toolZ - 0.9) < 0.1, JSON.stringify(found));
+      assert.equal((await page.evaluate(() => playground.touched.length)) > 0, name === "blade");
+      await reads(page, "#facts", /on the tool/);
+    }
+    await page.check('input[value="drag"]');
+    await run(page, 1);
+    assert.equal((await facts(page)).touched, 0);
+  });
+});
+
 test("a file is dropped on the page: a surface is filled and falls", async () => {
   await visit("?scene=empty&stopped", async (page) => {
     await dropFile(page, "cube.obj", cube);

@@ -427,10 +427,11 @@ class Grid(Results):
         return Shape(self, id) if kind else Mesh(self, id)
 
     def _kind_of_all(self) -> dict[int, int]:
+        ids = self._ids().tolist()
         with self._lock:
             known = self._kinds
-            self._kinds = {id: known[id] if id in known else Body(self, id)._raw_info().shape for id in self._ids().tolist()}
-            return self._kinds
+            self._kinds = kinds = {id: known[id] if id in known else Body(self, id)._raw_info().shape for id in ids}
+            return kinds
 
     @property
     def meshes(self) -> list[Mesh]:
