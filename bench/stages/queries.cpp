@@ -258,7 +258,8 @@ void time_each_alone(const char* name, std::size_t count, int rounds, const Ask&
     double sum = 0;
     for (const double one : least) sum += one;
     std::sort(least.begin(), least.end());
-    std::printf("%-32s %8.1f %8.1f %8.1f\n", name, sum / double(count), least[count * 95 / 100], least.back());
+    std::printf("%-32s %8.1f %8.1f %8.1f\n", name, sum / double(count), least[count * 95 / 100],
+                least.back());
 }
 
 // Tools of a tenth of the ball's size, at a share of its radius from its middle.
@@ -273,8 +274,10 @@ void time_instruments(double tets, int rounds) {
     std::uint64_t hit_count = 0, all_hits = 0;
     std::vector<vox_triangle_hit> hits(100000);
     vox_closest_hit closest{};
-    constexpr std::pair<const char*, std::pair<double, double>> places[] = {
-        {"outside", {1.05, 1.3}}, {"at the surface", {0.95, 1.05}}, {"inside", {0.5, 0.9}}, {"deep", {0, 0.4}}};
+    constexpr std::pair<const char*, std::pair<double, double>> places[] = {{"outside", {1.05, 1.3}},
+                                                                            {"at the surface", {0.95, 1.05}},
+                                                                            {"inside", {0.5, 0.9}},
+                                                                            {"deep", {0, 0.4}}};
     for (const auto& [name, range] : places) {
         std::vector<Vec3d> from, to;
         while (from.size() < 3 * count) {
@@ -293,6 +296,10 @@ void time_instruments(double tets, int rounds) {
             const vox_positions begin = vox_double_positions(&from[3 * i].x, 1),
                                 end = vox_double_positions(&from[3 * i + 1].x, 1);
             return vox_locator_find_closest_to_segments(locator, &begin, &end, nullptr, &closest);
+        });
+        time_each_alone(title("point").c_str(), count, rounds, [&](std::size_t i) {
+            const vox_positions begin = vox_double_positions(&from[3 * i].x, 1);
+            return vox_locator_find_closest(locator, &begin, nullptr, &closest);
         });
         const auto time_triangles = [&](const char* of, bool moves) {
             all_hits = 0;

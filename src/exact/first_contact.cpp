@@ -29,13 +29,15 @@ struct SeenRows {
         }
     }
     Vec3d at(std::size_t i, double t) const { return (1 - t) * from[i] + t * to[i]; }
+
+    // By how much a Bernstein coefficient of the determinant, or a value computed from these by dividing the
+    // interval at most seven times, may be off. A coefficient is at most 6 times the product, and off by 16
+    // roundings of that, a division by 9 more.
+    double determinant_error() const { return 0x1p-43 * most[0] * most[1] * most[2] + 0x1p-900; }
 };
 
-// A cubic polynomial by its Bernstein coefficients. Each is off by less than `error`, and so is a value
-// computed from them. Halved a few times, that includes the roundings: at most 6 times `most` is the largest
-// coefficient, which has 13 roundings.
+// A cubic polynomial by its Bernstein coefficients.
 using Bernstein = std::array<double, 4>;
-constexpr double cubic_error = 0x1p-43;
 
 Bernstein determinant_of(const SeenRows& rows) {
     const auto of = [&rows](int ends) { // bit i: row i at its end
@@ -135,14 +137,21 @@ FirstContact::Answer weigh(const SeenRows& rows, std::size_t moving, const First
 
 } // namespace
 
+int constant_side(const ContactRows& rows) {
+    const SeenRows seen(rows);
+    const Bernstein c = determinant_of(seen);
+    const auto [least, most] = std::minmax_element(c.begin(), c.end());
+    const double error = seen.determinant_error();
+    return *least > error ? 1 : *most < -error ? -1 : 0;
+}
+
 FirstContact quick_contact(const ContactRows& rows) {
     FirstContact contact;
     contact.answer = FirstContact::unsure;
     if (rows.count != 3) return contact;
     const SeenRows seen(rows);
     RootsInDouble roots;
-    roots.find(determinant_of(seen), cubic_error * seen.most[0] * seen.most[1] * seen.most[2] + 0x1p-900, 0,
-               1, 6);
+    roots.find(determinant_of(seen), seen.determinant_error(), 0, 1, 6);
     if (roots.unsure) return contact;
     for (std::size_t i = 0; i < roots.count; ++i) {
         const FirstContact::Answer answer = weigh(seen, rows.moving, roots.at[i]);

@@ -28,9 +28,13 @@ struct ContactRows {
 
 struct FirstContact {
     enum Answer { none, found, unsure } answer = none;
-    double t = 0, low = 0, high = 0; // in [low, high]; if these are equal, t is the double nearest to the time
-    int sign_after = 0;              // of the determinant, else
+    double t = 0, low = 0,
+           high = 0;    // in [low, high]; if these are equal, t is the double nearest to the time
+    int sign_after = 0; // of the determinant, else
 };
+
+// The sign that the determinant of three rows certainly has all the time; else 0.
+int constant_side(const ContactRows& rows);
 
 // In double. `unsure` if that does not decide; always, if there are not three rows.
 FirstContact quick_contact(const ContactRows& rows);

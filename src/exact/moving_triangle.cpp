@@ -1,7 +1,7 @@
-// A triangle that does not meet a convex polytope at first, and meets it later, first does so with a corner, in
-// a corner of the polytope, or where an edge of the one crosses an edge of the other: an extreme point of what
-// they have in common then is where two faces of complementary dimension cross, and two that cross in a point
-// inside both crossed before, unless both can part along their common plane. A flat tetrahedron is the
+// A triangle that does not meet a convex polytope at first, and meets it later, first does so with a corner,
+// in a corner of the polytope, or where an edge of the one crosses an edge of the other: an extreme point of
+// what they have in common then is where two faces of complementary dimension cross, and two that cross in a
+// point inside both crossed before, unless both can part along their common plane. A flat tetrahedron is the
 // union of its faces.
 #include "exact/moving_triangle.hpp"
 
@@ -45,7 +45,7 @@ public:
         const std::size_t n = triangle_.corners_;
         if (n == 3)
             for (const Vec3d* at : {&p, &q}) try_rows(rows({0, 1, 2}, *at), at == &p ? 0 : 1, s);
-        for (std::size_t side = 0; side < sides(); ++side) {
+        for (std::size_t side = 0; side < triangle_.sides(); ++side) {
             ContactRows of_side = rows({side, (side + 1) % n}, p);
             of_side.add_still(q);
             try_rows(of_side, in_between, s);
@@ -53,7 +53,7 @@ public:
         if (!degenerate_) return best_ <= 1;
         for (const Vec3d* at : {&p, &q}) {
             const double end = at == &p ? 0 : 1;
-            for (std::size_t side = 0; side < sides(); ++side)
+            for (std::size_t side = 0; side < triangle_.sides(); ++side)
                 try_rows(rows({side, (side + 1) % n}, *at), end, s);
             for (std::size_t i = 0; i < n; ++i) try_rows(rows({i}, *at), end, s);
         }
@@ -94,7 +94,6 @@ private:
     };
     static constexpr double in_between = -1; // for `end`
 
-    std::size_t sides() const { return triangle_.corners_ == 3 ? 3 : triangle_.corners_ - 1; }
     ContactRows rows(std::initializer_list<std::size_t> corners, const Vec3d& origin) const {
         ContactRows result;
         result.origin = origin;
@@ -132,7 +131,7 @@ private:
     const MovingTriangle& triangle_;
     bool degenerate_ = false;
     double best_ = 2;
-    double most_ = 2; // the first one is no later
+    double most_ = 2;          // the first one is no later
     std::vector<Found> found_; // that may be the first one
 };
 
@@ -169,36 +168,51 @@ bool MovingTriangle::is_beside(const Vec3d* const (&corner)[4]) const {
 // Whether it meets the tetrahedron at first, if it meets no edge of it.
 bool MovingTriangle::meets_faces(const Vec3d* const (&corner)[4]) const {
     std::uint64_t exact_tests = 0;
-    const Containment where =
-        locate(from_[0], *corner[0], *corner[1], *corner[2], *corner[3], exact_tests);
+    const Containment where = locate(from_[0], *corner[0], *corner[1], *corner[2], *corner[3], exact_tests);
     if (where == Containment::interior || where == Containment::boundary) return true;
     for (const std::uint8_t* c : facet_corners)
-        for (std::size_t i = 0; i < 3; ++i)
-            if (find_crossing(from_[i], from_[(i + 1) % 3], *corner[c[0]], *corner[c[1]], *corner[c[2]],
-                              exact_tests)
+        for (std::size_t i = 0; i < sides(); ++i)
+            if (find_crossing(from_[corner_[i]], from_[corner_[(i + 1) % corners_]], *corner[c[0]],
+                              *corner[c[1]], *corner[c[2]], exact_tests)
                     .kind != CrossingKind::none)
                 return true;
     return false;
 }
 
+// On which side of its plane a point certainly is all the time; else 0.
+int MovingTriangle::side_of(const Vec3d& p) const {
+    if (corners_ < 3) return 0;
+    ContactRows rows;
+    rows.origin = p;
+    for (std::size_t i = 0; i < 3; ++i) rows.add_moving(from_[i], to_[i]);
+    return constant_side(rows);
+}
+
 TetMeeting MovingTriangle::meet(const Vec3d* const (&corner)[4], const std::uint32_t (&vertex)[4]) const {
     TetMeeting meeting;
     if (is_beside(corner)) return meeting;
-    bool positive = true, negative = true;
-    for (const Vec3d* p : corner) {
-        const BoundedVolume side = plane_.volume(*p);
-        positive &= side.volume > side.error;
-        negative &= -side.volume > side.error;
+    int first_side[4], side[4]; // of its plane, where it is certain: at first, and if it is that all the time
+    for (std::size_t c = 0; c < 4; ++c) {
+        const BoundedVolume volume = plane_.volume(*corner[c]);
+        first_side[c] = !volume.certain() ? 0 : volume.volume > 0 ? 1 : -1;
+        side[c] = moves_ ? side_of(*corner[c]) : first_side[c];
     }
-    const bool is_in_plane = !positive && !negative; // at first
-    if (!moves_ && !is_in_plane) return meeting;
+    const auto is_on_one_side = [](const int(&of)[4]) {
+        return of[0] != 0 && of[0] == of[1] && of[0] == of[2] && of[0] == of[3];
+    };
+    if (is_on_one_side(side)) return meeting;
+    const bool is_in_plane = !is_on_one_side(first_side);
     std::uint64_t exact_tests = 0;
     Contacts contacts(*this);
     for (std::uint32_t e = 0; e < 6; ++e) {
         std::size_t low = edge_corners[e][0], high = edge_corners[e][1];
+        if (side[low] != 0 && side[low] == side[high]) continue;
         if (vertex[low] > vertex[high]) std::swap(low, high);
         const Vec3d &p = *corner[low], &q = *corner[high];
-        if (is_in_plane) {
+        // A segment meets an edge only in one plane.
+        if (is_in_plane &&
+            (corners_ == 3 ||
+             !bounded_volume(p, q, from_[corner_[0]], from_[corner_[corners_ - 1]]).certain())) {
             const Crossing crossing = find_crossing(p, q, from_[0], from_[1], from_[2], exact_tests);
             if (crossing.kind != CrossingKind::none) {
                 meeting.any = true;

@@ -1,5 +1,5 @@
-// What a triangle, whose corners may move linearly, meets of a tetrahedron that stands still: decided exactly,
-// whether the triangle is a segment or a point, and the tetrahedron flat.
+// What a triangle, whose corners may move linearly, meets of a tetrahedron that stands still: decided
+// exactly, whether the triangle is a segment or a point, and the tetrahedron flat.
 #pragma once
 
 #include "base/vectors.hpp"
@@ -36,6 +36,8 @@ private:
     class Contacts;
     bool is_beside(const Vec3d* const (&corner)[4]) const;
     bool meets_faces(const Vec3d* const (&corner)[4]) const;
+    int side_of(const Vec3d& p) const;
+    std::size_t sides() const { return corners_ == 3 ? 3 : corners_ - 1; }
 
     Vec3d from_[3], to_[3];
     TrianglePlane plane_; // at first

@@ -22,8 +22,7 @@ void trim(Polynomial& f) {
 
 Polynomial derivative(const Polynomial& f) {
     Polynomial result;
-    for (std::size_t i = 1; i < f.size(); ++i)
-        result.push_back(f[i] * whole(static_cast<std::uint32_t>(i)));
+    for (std::size_t i = 1; i < f.size(); ++i) result.push_back(f[i] * whole(static_cast<std::uint32_t>(i)));
     return result;
 }
 

@@ -132,8 +132,7 @@ void scaled_volumes(const VolumePoints& points, std::span<const VolumeCorners> o
                     std::span<double> volumes) {
     const auto p = in_units(points);
     int bits = 0; // of the largest volume
-    for (const auto& [a, b, c, d] : of)
-        bits = std::max(bits, exact_volume(p[a], p[b], p[c], p[d]).bits());
+    for (const auto& [a, b, c, d] : of) bits = std::max(bits, exact_volume(p[a], p[b], p[c], p[d]).bits());
     for (std::size_t i = 0; i < of.size(); ++i) {
         const auto& [a, b, c, d] = of[i];
         volumes[i] = scaled(exact_volume(p[a], p[b], p[c], p[d]), bits);

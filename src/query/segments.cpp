@@ -19,7 +19,8 @@ namespace {
 class SegmentBound {
 public:
     SegmentBound(const Vec3d& from, const Vec3d& to)
-        : from_(from), way_(to - from), low_(min(from, to)), high_(max(from, to)), squared_(dot(way_, way_)) {}
+        : from_(from), way_(to - from), low_(min(from, to)), high_(max(from, to)), squared_(dot(way_, way_)) {
+    }
 
     double operator()(const Box3f& box) const noexcept {
         const Vec3d least{box.min.x, box.min.y, box.min.z}, most{box.max.x, box.max.y, box.max.z};
@@ -29,12 +30,10 @@ public:
         const Vec3d gap{apart(low_.x, high_.x, least.x, most.x), apart(low_.y, high_.y, least.y, most.y),
                         apart(low_.z, high_.z, least.z, most.z)};
         double bound = dot(gap, gap), begin = 0, end = 1;
-        double t = squared_ > 0
-                       ? std::clamp(dot(0.5 * least + 0.5 * most - from_, way_) / squared_, 0.0, 1.0)
-                       : 0;
+        double t =
+            squared_ > 0 ? std::clamp(dot(0.5 * least + 0.5 * most - from_, way_) / squared_, 0.0, 1.0) : 0;
         // More than rounding adds to a bound, and to a distance that is compared with it.
-        const double error =
-            lost * std::max({reach_, largest_coordinate(least), largest_coordinate(most)});
+        const double error = lost * std::max({reach_, largest_coordinate(least), largest_coordinate(most)});
         double farthest = 0;
         for (int i = 0; i < 4 && squared_ > 0; ++i) {
             const Vec3d p = from_ + t * way_, out = p - max(least, min(most, p));
@@ -52,6 +51,32 @@ public:
             t = next > begin && next < end ? next : 0.5 * (begin + end);
         }
         return bound - error * (std::sqrt(std::max(bound, farthest)) + length_ + error);
+    }
+
+    // Calls visit(tet, facet) for the facets of a leaf that may be no further than the square root of `most`.
+    // A box around some facets of a slanting surface is much closer than they are; a plane between them and
+    // the segment, across the way to their middle, is hardly so.
+    template <class Tets, class Visit>
+    void visit_facets(const Box3f& box, const Tets& tets, const double& most, Visit&& visit) const {
+        const Vec3d least{box.min.x, box.min.y, box.min.z}, highest{box.max.x, box.max.y, box.max.z},
+            middle = 0.5 * least + 0.5 * highest;
+        const double t = squared_ > 0 ? std::clamp(dot(middle - from_, way_) / squared_, 0.0, 1.0) : 0;
+        const Vec3d p = from_ + t * way_, across = normalised(middle - p);
+        const double begin = std::max(dot(across, from_ - p), dot(across, from_ + way_ - p)),
+                     error = lost * (reach_ + length_ +
+                                     std::max(largest_coordinate(least), largest_coordinate(highest)));
+        for (std::size_t tet = 0; tet < tets.size(); ++tet) {
+            const unsigned facets = tets.facets(tet);
+            if (facets == 0) continue;
+            double height[4];
+            for (std::size_t c = 0; c < 4; ++c) height[c] = dot(across, tets.corner(tet, c) - p);
+            for (std::uint32_t facet = 0; facet < 4; ++facet) {
+                if ((facets >> facet & 1) == 0) continue;
+                const std::uint8_t* const c = facet_corners[facet];
+                const double bound = std::min({height[c[0]], height[c[1]], height[c[2]]}) - begin - error;
+                if (!(bound > 0 && bound * bound > most)) visit(tet, facet);
+            }
+        }
     }
 
 private:
@@ -148,11 +173,15 @@ void Queries::closest_to_segments(std::span<const Vec3d> from, std::span<const V
         if (before.any) // the previous segment's facet is a first bound
             closest.try_facet(from[i], to[i], std::get<0>(before.key), before.leaf,
                               tets_of(leaves_[before.leaf]), before.place, std::get<2>(before.key));
-        visit_facets(which, closest.squared, SegmentBound(from[i], to[i]),
-                     [&](std::uint32_t leaf, const LeafTets& tets, std::size_t tet, std::uint32_t facet,
-                         double) {
-                         closest.try_facet(from[i], to[i], leaves_[leaf].mesh, leaf, tets, tet, facet);
-                     });
+        const SegmentBound bound(from[i], to[i]);
+        surface_tree_.visit_nearest_first(closest.squared, bound, [&](std::uint32_t leaf) {
+            if (!wants(leaves_[leaf], which)) return;
+            const LeafTets tets = tets_of(leaves_[leaf]);
+            bound.visit_facets(
+                surface_boxes_[leaf], tets, closest.squared, [&](std::size_t tet, std::uint32_t facet) {
+                    closest.try_facet(from[i], to[i], leaves_[leaf].mesh, leaf, tets, tet, facet);
+                });
+        });
         hits[i] = {};
         if (!closest.any) continue;
         const Vec3d p = from[i] + closest.point.place * (to[i] - from[i]);

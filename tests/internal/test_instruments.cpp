@@ -63,10 +63,11 @@ bool solves(const std::vector<std::array<Rational, 5>>& columns, unsigned chosen
 bool meet(const std::vector<RationalPoint>& a, const std::vector<RationalPoint>& b) {
     std::vector<std::array<Rational, 5>> columns;
     for (const RationalPoint& p : a) columns.push_back({p[0], p[1], p[2], 1.0, 0.0});
-    for (const RationalPoint& p : b)
-        columns.push_back({0.0 - p[0], 0.0 - p[1], 0.0 - p[2], 0.0, 1.0});
+    for (const RationalPoint& p : b) columns.push_back({0.0 - p[0], 0.0 - p[1], 0.0 - p[2], 0.0, 1.0});
     for (std::size_t axis = 0; axis < 3; ++axis) { // most are apart along an axis
-        const auto less = [axis](const RationalPoint& p, const RationalPoint& q) { return p[axis] < q[axis]; };
+        const auto less = [axis](const RationalPoint& p, const RationalPoint& q) {
+            return p[axis] < q[axis];
+        };
         const auto of_a = std::minmax_element(a.begin(), a.end(), less),
                    of_b = std::minmax_element(b.begin(), b.end(), less);
         if ((*of_a.second)[axis] < (*of_b.first)[axis] || (*of_b.second)[axis] < (*of_a.first)[axis])
@@ -167,12 +168,14 @@ std::vector<vox_triangle_hit> find_all(const OwnLocator& locator, const std::vec
 
 struct Tally {
     std::size_t met = 0, later = 0, apart = 0, touched = 0, // for one moment
-        nearly = 0, maybe_near = 0;                             // not proved
+        nearly = 0, maybe_near = 0;                         // not proved
 };
 
 // The distance of a segment and a triangle: that of a point of the segment is a convex function of its place.
 double distance_of(const Vec3d& p, const Vec3d& q, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-    const auto at = [&](double s) { return closest_seen_from((1 - s) * p + s * q, a, b, c).at.squared_distance; };
+    const auto at = [&](double s) {
+        return closest_seen_from((1 - s) * p + s * q, a, b, c).at.squared_distance;
+    };
     double begin = 0, end = 1;
     for (int i = 0; i < 80; ++i) {
         const double low = begin + 0.4 * (end - begin), high = begin + 0.6 * (end - begin);
@@ -234,8 +237,8 @@ void check_edges(const std::vector<vox_triangle_hit>& hits, const QueryDefinitio
 }
 
 void check_proved(const Tally& tally) {
-    std::fprintf(stderr, "met %zu, later %zu, apart %zu, touched %zu, maybe %zu %zu\n", tally.met, tally.later,
-                 tally.apart, tally.touched, tally.nearly, tally.maybe_near);
+    std::fprintf(stderr, "met %zu, later %zu, apart %zu, touched %zu, maybe %zu %zu\n", tally.met,
+                 tally.later, tally.apart, tally.touched, tally.nearly, tally.maybe_near);
     ck_assert_uint_le(tally.maybe_near, (tally.later + tally.apart) / 50);
     ck_assert_uint_le(tally.nearly, tally.later / 10);
 }
@@ -288,12 +291,12 @@ std::vector<Motion> motions_in(const QueryDefinition& mesh, Random& random, std:
         const Vec3d centre = mesh.positions()[random.below(std::uint32_t(mesh.positions().size()))];
         const Vec3d step = i % 2 ? lattice_point(random, 1) : random_vector(random, size);
         for (std::size_t c = 0; c < 3; ++c) {
-            motion.from[c] =
-                i % 2 ? centre + lattice_point(random, 2) : centre + random_vector(random, size);
+            motion.from[c] = i % 2 ? centre + lattice_point(random, 2) : centre + random_vector(random, size);
             // As one, or each by itself.
             motion.to[c] = motion.from[c] + step;
             if (i % 3 == 0)
-                motion.to[c] = motion.to[c] + (i % 2 ? lattice_point(random, 1) : random_vector(random, size));
+                motion.to[c] =
+                    motion.to[c] + (i % 2 ? lattice_point(random, 1) : random_vector(random, size));
         }
         const auto join = [&motion](std::size_t from, std::size_t to) {
             motion.from[to] = motion.from[from];
@@ -347,6 +350,4 @@ END_TEST
 
 } // namespace
 
-SUITE(instruments) {
-    tcase_add_each(add_case(suite, "instruments"), still_triangles, moving_triangles);
-}
+SUITE(instruments) { tcase_add_each(add_case(suite, "instruments"), still_triangles, moving_triangles); }
