@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -237,8 +239,6 @@ void check_edges(const std::vector<vox_triangle_hit>& hits, const QueryDefinitio
 }
 
 void check_proved(const Tally& tally) {
-    std::fprintf(stderr, "met %zu, later %zu, apart %zu, touched %zu, maybe %zu %zu\n", tally.met,
-                 tally.later, tally.apart, tally.touched, tally.nearly, tally.maybe_near);
     ck_assert_uint_le(tally.maybe_near, (tally.later + tally.apart) / 50);
     ck_assert_uint_le(tally.nearly, tally.later / 10);
 }
@@ -333,21 +333,212 @@ std::size_t usual_count(std::uint64_t usual) { return std::size_t(volume_from("V
 START_TEST(still_triangles) {
     Random random{1};
     const QueryDefinition cubes = with_flat_tets(definition_of(kuhn_block(2, 2, 1, {0, 0, 0}, 1)), random);
-    const Tally tally = check_triangles(cubes, motions_in(cubes, random, usual_count(60), 1), false);
-    ck_assert_uint_gt(tally.met, usual_count(60));
-    ck_assert_uint_gt(tally.apart, usual_count(60));
+    const Tally tally = check_triangles(cubes, motions_in(cubes, random, usual_count(36), 1), false);
+    ck_assert_uint_gt(tally.met, usual_count(36));
+    ck_assert_uint_gt(tally.apart, usual_count(36));
 }
 END_TEST
 
 START_TEST(moving_triangles) {
     Random random{2};
     const QueryDefinition cubes = with_flat_tets(definition_of(kuhn_block(2, 1, 1, {0, 0, 0}, 1)), random);
-    const Tally tally = check_triangles(cubes, motions_in(cubes, random, usual_count(60), 1), true);
-    ck_assert_uint_gt(tally.later, usual_count(60));
+    const Tally tally = check_triangles(cubes, motions_in(cubes, random, usual_count(36), 1), true);
+    ck_assert_uint_gt(tally.later, usual_count(36));
     check_proved(tally);
+}
+END_TEST
+
+START_TEST(bad_shapes) {
+    Random random{3};
+    for (const Shape shape :
+         {Shape::needles, Shape::coincident, Shape::flat, Shape::lines, Shape::tiny, Shape::far}) {
+        const QueryDefinition soup = make_soup(random, shape, 12);
+        std::vector<Motion> motions;
+        while (motions.size() < usual_count(12)) {
+            Motion motion;
+            for (std::size_t c = 0; c < 3; ++c) {
+                const auto place = [&] {
+                    return soup.positions()[random.below(std::uint32_t(soup.positions().size()))];
+                };
+                motion.from[c] = place();
+                motion.to[c] = place();
+            }
+            motions.push_back(motion);
+        }
+        std::vector<vox_body> ids;
+        const OwnLocator locator = locator_of({soup}, ids);
+        std::map<std::pair<std::uint32_t, std::uint32_t>, double> first;
+        for (const vox_triangle_hit& hit : find_all(locator, motions, true))
+            first[{hit.triangle, hit.tet}] = hit.t;
+        for (std::uint32_t i = 0; i < motions.size(); ++i)
+            for (std::uint32_t tet = 0; tet < soup.tets().size(); ++tet) {
+                std::vector<RationalPoint> still;
+                for (std::size_t c = 0; c < 4; ++c) still.push_back(exact(soup.corner(tet, c)));
+                const auto found = first.find({i, tet});
+                const double t = found == first.end() ? 2 : found->second;
+                ck_assert_int_eq(meet(motions[i].at(Time(0)), still), t == 0);
+                for (const double when : {0.25, 0.5, 1.0})
+                    if (meet(motions[i].at(Time(when)), still)) ck_assert_double_le(t, when);
+                if (t > 0 && t <= 1) ck_assert(!meet(motions[i].at(Time(std::nextafter(t, 0))), still));
+            }
+    }
+}
+END_TEST
+
+// The closest points of segments, by search along the segment for each facet.
+START_TEST(segments) {
+    Random random{4};
+    Mesh mesh = jittered(ball(400), random, 0.2);
+    const QueryDefinition round = definition_of(mesh),
+                          cubes = definition_of(kuhn_block(2, 2, 2, {0, 0, 0}, 1));
+    for (const QueryDefinition* body : {&round, &cubes}) {
+        std::vector<vox_body> ids;
+        const OwnLocator locator = locator_of({*body}, ids);
+        std::vector<Vec3d> from, to;
+        const bool on_lattice = body == &cubes;
+        for (std::size_t i = 0; i < usual_count(120); ++i) {
+            const Vec3d centre = body->positions()[random.below(std::uint32_t(body->positions().size()))];
+            from.push_back(on_lattice ? centre + lattice_point(random, 2)
+                                      : 0.8 * centre + random_vector(random, 1));
+            to.push_back(on_lattice   ? from.back() + lattice_point(random, 2)
+                         : i % 8 == 0 ? from.back()
+                                      : from.back() + random_vector(random, 0.5));
+        }
+        const vox_positions begins = vox_double_positions(&from[0].x, from.size()),
+                            ends = vox_double_positions(&to[0].x, to.size());
+        std::vector<vox_closest_hit> hits(from.size()), near(from.size()), points(from.size());
+        ck_ok(vox_locator_find_closest_to_segments(locator.get(), &begins, &ends, nullptr, hits.data()));
+        vox_query_desc desc = vox_default_query_desc();
+        desc.max_distance = 0.25;
+        ck_ok(vox_locator_find_closest_to_segments(locator.get(), &begins, &ends, &desc, near.data()));
+        ck_ok(vox_locator_find_closest(locator.get(), &begins, nullptr, points.data()));
+        std::size_t crossing = 0, inner = 0;
+        for (std::size_t i = 0; i < from.size(); ++i) {
+            double wanted = 1e300;
+            bool meets = false;
+            for (const auto& [tet, facet] : body->surface()) {
+                const Vec3d corner[3] = {body->corner(tet, facet_corners[facet][0]),
+                                         body->corner(tet, facet_corners[facet][1]),
+                                         body->corner(tet, facet_corners[facet][2])};
+                wanted = std::min(wanted, distance_of(from[i], to[i], corner[0], corner[1], corner[2]));
+                if (wanted < 1e-6)
+                    meets |= meet({exact(from[i]), exact(to[i])},
+                                  {exact(corner[0]), exact(corner[1]), exact(corner[2])});
+            }
+            const vox_closest_hit& hit = hits[i];
+            ck_assert_uint_eq(hit.body, ids[0]);
+            ck_assert_int_eq(hit.distance == 0, meets);
+            ck_assert_double_eq_tol(std::abs(hit.distance), wanted, 1e-6);
+            ck_assert_uint_eq(hit.inside, points[i].inside);
+            if (!meets) ck_assert_int_eq(hit.distance<0, hit.inside> 0);
+            const Vec3d position = vector_of(hit.position);
+            const double back = distance_of(from[i], to[i], position, position, position);
+            ck_assert_double_eq_tol(back, std::abs(hit.distance), 1e-6);
+            ck_assert_int_eq(near[i].body == ids[0], std::abs(hit.distance) <= 0.25);
+            if (near[i].body != VOX_NULL_BODY) ck_assert_mem_eq(&near[i], &hit, sizeof hit);
+            vox_closest_hit alone{};
+            const vox_positions begin = vox_double_positions(&from[i].x, 1),
+                                end = vox_double_positions(&to[i].x, 1);
+            ck_ok(vox_locator_find_closest_to_segments(locator.get(), &begin, &end, nullptr, &alone));
+            ck_assert_mem_eq(&alone, &hit, sizeof hit);
+            crossing += meets;
+            inner += hit.distance < 0;
+        }
+        ck_assert_uint_gt(crossing, from.size() / 10);
+        if (!on_lattice) ck_assert_uint_gt(inner, 0);
+    }
+}
+END_TEST
+
+// A tool's thread asks the newest locator while the grid steps.
+START_TEST(asked_while_the_grid_steps) {
+    Random random{5};
+    Mesh mesh = jittered(ball(2000), random, 0.1);
+    vox_grid* grid = engine_grid();
+    vox_mesh_desc desc = vox_default_mesh_desc();
+    std::vector<Vec3d> positions(mesh.positions.begin(), mesh.positions.end());
+    desc.positions = vox_double_positions(&positions[0].x, positions.size());
+    desc.tets = mesh.tets.front().v;
+    desc.tet_count = mesh.tets.size();
+    insert_mesh(grid, &desc);
+    vox_locator* const locator = take_locator(grid);
+    const auto ask = [locator](std::vector<vox_triangle_hit>& hits, vox_closest_hit& closest) {
+        const Vec3d from[3] = {{-9, 0.1, 0}, {9, 0.2, 0.1}, {0, 0.3, 9}},
+                    to[3] = {{-9, 1, 0}, {9, 0, 0.1}, {1, 2, 9}};
+        const vox_positions begin = vox_double_positions(&from[0].x, 3),
+                            end = vox_double_positions(&to[0].x, 3);
+        std::uint64_t count = 0;
+        const bool good =
+            vox_locator_find_triangle_hits(locator, &begin, &end, nullptr, hits.data(), hits.size(),
+                                           &count) == VOX_OK &&
+            vox_locator_find_closest_to_segments(locator, &begin, &end, nullptr, &closest) == VOX_OK;
+        return good ? count : 0;
+    };
+    std::vector<vox_triangle_hit> wanted(10000);
+    vox_closest_hit closest[3];
+    const std::uint64_t count = ask(wanted, closest[0]);
+    ck_assert_uint_gt(count, 10);
+    ck_assert_uint_le(count, wanted.size());
+    std::atomic<bool> ends = false;
+    std::atomic<int> wrong = 0, asked = 0;
+    std::thread tool([&] {
+        std::vector<vox_triangle_hit> hits(10000);
+        vox_closest_hit found[3];
+        while (!ends || asked == 0) {
+            const std::uint64_t again = ask(hits, found[0]);
+            wrong += again != count || std::memcmp(hits.data(), wanted.data(), count * sizeof hits[0]) != 0 ||
+                     std::memcmp(found, closest, sizeof found) != 0;
+            ++asked;
+        }
+    });
+    for (int step = 0; step < 20; ++step) {
+        ck_ok(vox_grid_step(grid));
+        vox_locator* next = nullptr;
+        ck_ok(vox_grid_update_locator(grid, &next));
+        vox_locator_release(next);
+    }
+    ends = true;
+    tool.join();
+    ck_assert_int_eq(wrong, 0);
+    vox_grid_destroy(grid);
+    vox_locator_release(locator);
+}
+END_TEST
+
+START_TEST(errors) {
+    std::vector<vox_body> ids;
+    const OwnLocator locator = locator_of({definition_of(kuhn_block(1, 1, 1, {0, 0, 0}, 1))}, ids);
+    const Vec3d corners[4] = {{-1, 0.5, 0.25}, {2, 0.5, 0.25}, {0, 1, 2}, {0, 0, NAN}};
+    const vox_positions two = vox_double_positions(&corners[0].x, 2),
+                        three = vox_double_positions(&corners[0].x, 3),
+                        bad = vox_double_positions(&corners[1].x, 3);
+    std::uint64_t count = 77;
+    const auto triangles = [&](const vox_positions* from, const vox_positions* to) {
+        return vox_locator_find_triangle_hits(locator.get(), from, to, nullptr, nullptr, 0, &count);
+    };
+    ck_fails(triangles(&two, nullptr), VOX_ERROR_INVALID_ARGUMENT,
+             "from.count is 2, expected a multiple of 3");
+    ck_fails(triangles(&three, &two), VOX_ERROR_INVALID_ARGUMENT, "from.count is 3, to.count is 2");
+    ck_fails(triangles(&three, &bad), VOX_ERROR_NON_FINITE, "to: position 2");
+    ck_fails(vox_locator_find_triangle_hits(locator.get(), &three, nullptr, nullptr, nullptr, 1, &count),
+             VOX_ERROR_INVALID_ARGUMENT, "hits");
+    ck_assert_uint_eq(count, 77);
+    ck_ok(triangles(&three, nullptr));
+    ck_assert_uint_gt(count, 0);
+    const vox_query_desc none = query_of(0, ids[0]);
+    ck_ok(vox_locator_find_triangle_hits(locator.get(), &three, nullptr, &none, nullptr, 0, &count));
+    ck_assert_uint_eq(count, 0);
+    vox_closest_hit hits[3];
+    ck_fails(vox_locator_find_closest_to_segments(locator.get(), &three, &two, nullptr, hits),
+             VOX_ERROR_INVALID_ARGUMENT, "from.count is 3, to.count is 2");
+    ck_ok(vox_locator_find_closest_to_segments(locator.get(), &two, &two, &none, hits));
+    ck_assert_uint_eq(hits[0].body, VOX_NULL_BODY);
 }
 END_TEST
 
 } // namespace
 
-SUITE(instruments) { tcase_add_each(add_case(suite, "instruments"), still_triangles, moving_triangles); }
+SUITE(instruments) {
+    tcase_add_each(add_case(suite, "instruments"), still_triangles, moving_triangles, bad_shapes, segments,
+                   asked_while_the_grid_steps, errors);
+}
