@@ -433,8 +433,8 @@ export interface TriangleHit {
   /** when the triangle first meets the tetrahedron; 0 if it does at first. The double nearest to the true time. */
   t: number;
   /**
-   * where it first meets edge k, from 0 at the end with the lower vertex index to 1 at the other: the same for all
-   * tetrahedra that share the edge; 0 for edges that it does not meet
+   * where it first meets edge k, from 0 at the end with the lower vertex index to 1: the same for all tetrahedra that
+   * share the edge; 0 for edges that it does not meet
    */
   s: number[];
 }

@@ -1,4 +1,5 @@
-/* A blade that a cutting program moves into a cube: the tetrahedra on its way, in order, and the edges that it cuts. */
+/* A blade that a cutting program moves into a cube: the tetrahedra on its way, in order, and the edges that
+ * it cuts. */
 #include "example.h"
 
 #include <vox/vox_query.h>
@@ -11,7 +12,8 @@ int main(void) {
     insert_cube(grid, &body);
     must(vox_grid_update_locator(grid, &locator));
 
-    /* Its edge, from y = -1 to y = 2, goes down from z = 1.5 to z = 0.5: a triangle with two corners in one place. */
+    /* Its edge, from y = -1 to y = 2, goes down from z = 1.5 to z = 0.5: a triangle with two corners in one
+     * place. */
     const double edge[3][3] = {{0.3, -1, 1.5}, {0.3, 2, 1.5}, {0.3, 2, 1.5}};
     const double then[3][3] = {{0.3, -1, 0.5}, {0.3, 2, 0.5}, {0.3, 2, 0.5}};
     const vox_positions from = vox_double_positions(edge[0], 3), to = vox_double_positions(then[0], 3);

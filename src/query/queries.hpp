@@ -89,7 +89,7 @@ public:
     // One hit a point; `memory` is for temporary use.
     void closest_points(std::span<const Vec3d> points, double max_distance, QueryMeshes which,
                         std::pmr::memory_resource* memory, vox_closest_hit* hits) const;
-    // The same for segments.
+    // One hit a segment, likewise.
     void closest_to_segments(std::span<const Vec3d> from, std::span<const Vec3d> to, double max_distance,
                              QueryMeshes which, std::pmr::memory_resource* memory,
                              vox_closest_hit* hits) const;

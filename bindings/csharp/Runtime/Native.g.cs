@@ -1097,8 +1097,8 @@ namespace Voxtet
         public uint edges;
         /// <summary>when the triangle first meets the tetrahedron; 0 if it does at first.</summary>
         public double t;
-        /// <summary>where it first meets edge k, from 0 at the end with the lower vertex index to 1 at the other: the
-        /// same for all tetrahedra that share the edge; 0 for edges that it does not meet</summary>
+        /// <summary>where it first meets edge k, from 0 at the end with the lower vertex index to 1: the same for all
+        /// tetrahedra that share the edge; 0 for edges that it does not meet</summary>
         public Double6 s;
     }
 
@@ -2201,8 +2201,7 @@ namespace Voxtet
 
         /// <summary>Finds the closest points of segments and all surfaces, e.g. of a capsule's axis: it touches where
         /// the distance is less than its radius. out_hits[i] is for the closed segment from from[i] to to[i], as for a
-        /// point: `position` is on the surface, and the point of the segment that is closest to it is the other
-        /// one.</summary>
+        /// point: `position` is the point of the surface that is closest to the segment.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_locator_find_closest_to_segments(IntPtr locator, Positions* from, Positions*
             to, QueryDesc* desc, ClosestHit* out_hits);

@@ -960,8 +960,8 @@ pub struct vox_triangle_hit {
     pub edges: u32,
     /// when the triangle first meets the tetrahedron; 0 if it does at first. The double nearest to the true time.
     pub t: f64,
-    /// where it first meets edge k, from 0 at the end with the lower vertex index to 1 at the other: the same for all
-    /// tetrahedra that share the edge; 0 for edges that it does not meet
+    /// where it first meets edge k, from 0 at the end with the lower vertex index to 1: the same for all tetrahedra
+    /// that share the edge; 0 for edges that it does not meet
     pub s: [f64; 6],
 }
 
@@ -2120,10 +2120,10 @@ extern "C" {
     ) -> vox_result;
     /// Finds the closest points of segments and all surfaces, e.g. of a capsule's axis: it touches where the distance
     /// is less than its radius. out_hits[i] is for the closed segment from from[i] to to[i], as for a point: `position`
-    /// is on the surface, and the point of the segment that is closest to it is the other one. If the segment meets the
-    /// surface, which is exact, the distance is 0. `inside` and the sign are those of from[i]: put the tip of a tool
-    /// there, and ask vox_locator_find_closest how deep it is. Segments that are close together should follow each
-    /// other. Errors: as vox_locator_find_closest, and INVALID_ARGUMENT (arrays of different lengths).
+    /// is the point of the surface that is closest to the segment. If the segment meets the surface, which is exact,
+    /// the distance is 0. `inside` and the sign say where from[i] is: put the tip of a tool there, and ask
+    /// vox_locator_find_closest how deep it is. Segments that are close together should follow each other. Errors: as
+    /// vox_locator_find_closest, and INVALID_ARGUMENT (arrays of different lengths).
     pub fn vox_locator_find_closest_to_segments(
         locator: *const vox_locator,
         from: *const vox_positions,
@@ -2133,11 +2133,11 @@ extern "C" {
     ) -> vox_result;
     /// Finds the tetrahedra that triangles meet, sorted by (triangle, body, t, tet): for a cut, in order along the
     /// motion. Points 3 i, 3 i + 1 and 3 i + 2 are the corners of triangle i, which may be a segment, e.g. a needle or
-    /// the edge of a blade, or a point. With `to`, each corner moves from its place in `from`, where t is 0, to that in
-    /// `to`, where t is 1, on a line and steadily: then a hit is a tetrahedron that the triangle meets at any time.
-    /// Without, t is 0. Which tetrahedra and edges a triangle meets is exact, touching included, also for tetrahedra
-    /// without volume; s is rounded. Errors: also INVALID_ARGUMENT (a count that is no multiple of 3; arrays of
-    /// different lengths).
+    /// the edge of a blade, or a point. With `to`, each corner moves on a line and steadily, from its place in `from`,
+    /// where t is 0, to `to`, where t is 1. A hit is then a tetrahedron that the triangle meets at any time. Without, t
+    /// is 0. Which tetrahedra and edges a triangle meets is exact, touching included, also for tetrahedra without
+    /// volume; s is rounded. Errors: also INVALID_ARGUMENT (a count that is no multiple of 3; arrays of different
+    /// lengths).
     pub fn vox_locator_find_triangle_hits(
         locator: *const vox_locator,
         from: *const vox_positions,
