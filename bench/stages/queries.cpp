@@ -1,5 +1,5 @@
-// What queries cost: taking a locator, for floats, doubles and a transform, each question, and the search for
-// what is worst.
+// What queries cost: taking a locator, for floats, doubles and a transform, each question, those of
+// instruments one by one, and the search for what is worst.
 //
 //   bench_queries [--tets N] [--rounds K]
 //
@@ -19,6 +19,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -242,9 +243,90 @@ void time_all(double tets, int rounds) {
     for (int k = 0; k < kinds; ++k) print(kind_names[k], times[std::size_t(k)]);
 }
 
+// ---- instruments -------------------------------------------------------------------------------------
+
+vox_locator* locator_of(const QueryDefinition& mesh, double* seconds = nullptr);
+
+// The mean and the 95th of a hundred of the least times, in microseconds, of questions that are asked one by
+// one.
+template <class Ask>
+void time_each_alone(const char* name, std::size_t count, int rounds, const Ask& ask) {
+    std::vector<double> least(count, 1e9);
+    for (int round = 0; round < rounds; ++round)
+        for (std::size_t i = 0; i < count; ++i)
+            least[i] = std::min(least[i], 1e6 * seconds_of([&] { must(ask(i)); }));
+    double sum = 0;
+    for (const double one : least) sum += one;
+    std::sort(least.begin(), least.end());
+    std::printf("%-32s %8.1f %8.1f %8.1f\n", name, sum / double(count), least[count * 95 / 100],
+                least.back());
+}
+
+// Tools of a tenth of the ball's size, at a share of its radius from its middle.
+void time_instruments(double tets, int rounds) {
+    Random random{9};
+    double radius = 0;
+    const vox::test::Mesh ball = vox::test::jittered(vox::test::ball(tets, &radius), random, 0.15);
+    vox_locator* const locator = locator_of({{ball.positions.begin(), ball.positions.end()}, ball.tets});
+    std::printf("instruments, one by one, in a ball of %zu tets: us a question\n%-32s %8s %8s %8s\n",
+                ball.tets.size(), "", "mean", "p95", "most");
+    constexpr std::size_t count = 1000;
+    std::uint64_t hit_count = 0, all_hits = 0;
+    std::vector<vox_triangle_hit> hits(100000);
+    vox_closest_hit closest{};
+    constexpr std::pair<const char*, std::pair<double, double>> places[] = {{"outside", {1.05, 1.3}},
+                                                                            {"at the surface", {0.95, 1.05}},
+                                                                            {"inside", {0.5, 0.9}},
+                                                                            {"deep", {0, 0.4}}};
+    for (const auto& [name, range] : places) {
+        std::vector<Vec3d> from, to;
+        while (from.size() < 3 * count) {
+            Vec3d at = vox::test::random_vector(random, 1);
+            if (const double length = std::sqrt(dot(at, at)); length > 0.1 && length < 1)
+                at = (radius * (range.first + (range.second - range.first) * random.unit()) / length) * at;
+            else
+                continue;
+            for (int c = 0; c < 3; ++c) {
+                from.push_back(at + vox::test::random_vector(random, 0.1 * radius));
+                to.push_back(from.back() + vox::test::random_vector(random, 0.02 * radius));
+            }
+        }
+        const auto title = [&](const char* of) { return std::string(of) + ", " + name; };
+        time_each_alone(title("capsule").c_str(), count, rounds, [&](std::size_t i) {
+            const vox_positions begin = vox_double_positions(&from[3 * i].x, 1),
+                                end = vox_double_positions(&from[3 * i + 1].x, 1);
+            return vox_locator_find_closest_to_segments(locator, &begin, &end, nullptr, &closest);
+        });
+        time_each_alone(title("point").c_str(), count, rounds, [&](std::size_t i) {
+            const vox_positions begin = vox_double_positions(&from[3 * i].x, 1);
+            return vox_locator_find_closest(locator, &begin, nullptr, &closest);
+        });
+        const auto time_triangles = [&](const char* of, bool moves) {
+            all_hits = 0;
+            time_each_alone(title(of).c_str(), count, rounds, [&](std::size_t i) {
+                const vox_positions begin = vox_double_positions(&from[3 * i].x, 3),
+                                    end = vox_double_positions(&to[3 * i].x, 3);
+                const vox_result result = vox_locator_find_triangle_hits(
+                    locator, &begin, moves ? &end : nullptr, nullptr, hits.data(), hits.size(), &hit_count);
+                all_hits += hit_count;
+                return result;
+            });
+            std::printf("%32s %8.1f\n", "hits", double(all_hits) / double(count) / rounds);
+        };
+        time_triangles("triangle", false);
+        time_triangles("moving triangle", true);
+        for (std::size_t i = 0; i < count; ++i) {
+            from[3 * i + 2] = from[3 * i + 1];
+            to[3 * i + 2] = to[3 * i + 1];
+        }
+        time_triangles("moving needle", true);
+    }
+    vox_locator_release(locator);
+}
+
 // ---- the worst ---------------------------------------------------------------------------------------
 
-vox_locator* locator_of(const QueryDefinition& mesh, double* seconds = nullptr) {
+vox_locator* locator_of(const QueryDefinition& mesh, double* seconds) {
     vox_grid_desc settings = vox_default_grid_desc();
     settings.flags = 0;
     vox_grid* grid = nullptr;
@@ -305,6 +387,7 @@ int main(int argc, char** argv) {
     return bench::run_program("bench_queries", [&] {
         std::printf("least of %d rounds\n", rounds);
         time_all(tets, rounds);
+        time_instruments(100000, std::min(rounds, 5));
         time_worst(10000, std::min(rounds, 3));
         return 0;
     });

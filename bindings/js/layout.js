@@ -245,6 +245,14 @@ export const structs = {
     t_in: [24, "f64", 1],
     t_out: [32, "f64", 1],
   } },
+  vox_triangle_hit: { size: 72, defaults: {  }, fields: {
+    triangle: [0, "u32", 1],
+    body: [4, "u32", 1],
+    tet: [8, "u32", 1],
+    edges: [12, "u32", 1],
+    t: [16, "f64", 1],
+    s: [24, "f64", 6],
+  } },
   vox_cost_sample: { size: 16, defaults: {  }, fields: {
     cell_size: [0, "f64", 1],
     cost: [8, "f64", 1],
@@ -450,6 +458,8 @@ export const functions = {
   vox_locator_find_ray_hits: ["result", ["pointer", "pointer", "pointer", "pointer", "pointer", "count", "pointer"]],
   vox_locator_test_rays: ["result", ["pointer", "pointer", "pointer", "pointer", "pointer"]],
   vox_locator_find_tracks: ["result", ["pointer", "pointer", "pointer", "pointer", "pointer", "count", "pointer"]],
+  vox_locator_find_closest_to_segments: ["result", ["pointer", "pointer", "pointer", "pointer", "pointer"]],
+  vox_locator_find_triangle_hits: ["result", ["pointer", "pointer", "pointer", "pointer", "pointer", "count", "pointer"]],
   vox_suggest_cell_size: ["result", ["pointer", "pointer", "count", "pointer"]],
   vox_grid_suggest_cell_size: ["result", ["pointer", "pointer", "pointer"]],
   vox_cost_calibrate: ["result", ["pointer"]],

@@ -257,7 +257,10 @@ export interface QueryDesc {
   mask: bigint;
   /** not this body, e.g. the asking body; an id that the locator does not have excludes none */
   excluded: number;
-  /** vox_locator_locate and vox_locator_find_closest: no further than this, in the caller's unit; 0: any distance */
+  /**
+   * vox_locator_locate, vox_locator_find_closest and vox_locator_find_closest_to_segments: no further than this, in the
+   * caller's unit; 0: any distance
+   */
   maxDistance: number;
 }
 
@@ -414,6 +417,36 @@ export interface TrackPieceColumns {
   readonly facetOut: Uint32Array;
   readonly tIn: Float64Array;
   readonly tOut: Float64Array;
+}
+
+/**
+ * A tetrahedron that a triangle meets, and the edges of it that the triangle cuts. Edges are 0: corners 0, 1 1: 0, 2 2:
+ * 0, 3 3: 1, 2 4: 1, 3 5: 2, 3 of the tetrahedron.
+ */
+export interface TriangleHit {
+  /** index of the triangle */
+  triangle: number;
+  body: number;
+  tet: number;
+  /** bit k: the triangle meets edge k, an end of it included */
+  edges: number;
+  /** when the triangle first meets the tetrahedron; 0 if it does at first. The double nearest to the true time. */
+  t: number;
+  /**
+   * where it first meets edge k, from 0 at the end with the lower vertex index to 1: the same for all tetrahedra that
+   * share the edge; 0 for edges that it does not meet
+   */
+  s: number[];
+}
+
+/** Columns of TriangleHit: of an array field, its elements one after the other. */
+export interface TriangleHitColumns {
+  readonly triangle: Uint32Array;
+  readonly body: Uint32Array;
+  readonly tet: Uint32Array;
+  readonly edges: Uint32Array;
+  readonly t: Float64Array;
+  readonly s: Float64Array;
 }
 
 /** A point of a cost curve. */

@@ -6,13 +6,13 @@ import type {
   ClosestHit, ClosestHitColumns, Constraint, ConstraintColumns, ConstraintDesc, Contact, ContactColumns,
   CostTerm as CostTermStruct, CostWeights, Failure, Filter, ForeignCounts, ForeignWeights, Geometry, GridDesc, GridInfo, Location,
   LocationColumns, Pair, PairColumns, PointHit, PointHitColumns, QueryDesc, RayHit, RayHitColumns, ReferenceDesc, Timing,
-  TrackPiece, TrackPieceColumns, TuneDesc,
+  TrackPiece, TrackPieceColumns, TriangleHit, TriangleHitColumns, TuneDesc,
 } from "./structs.js";
 
 export * from "./enums.js";
 export type {
   BodyInfo, BoxHit, ClosestHit, Constraint, Contact, CostSample, CostWeights, Failure, Filter, ForeignCounts, ForeignWeights,
-  Geometry, GridInfo, Location, Pair, PointHit, RayHit, Timing, TrackPiece,
+  Geometry, GridInfo, Location, Pair, PointHit, RayHit, Timing, TrackPiece, TriangleHit,
 } from "./structs.js";
 
 /** A call that vox refused. The message says what was wrong, with numbers in it; `code` is one of `Result`. */
@@ -118,6 +118,7 @@ export type Records<Item, Columns> = RecordsOf<Item, Columns> & Columns;
 export type Contacts = Records<Contact, ContactColumns>;
 export type Locations = Records<Location, LocationColumns>;
 export type TrackPieces = Records<TrackPiece, TrackPieceColumns>;
+export type TriangleHits = Records<TriangleHit, TriangleHitColumns>;
 export type PointHits = Records<PointHit, PointHitColumns>;
 export type ClosestHits = Records<ClosestHit, ClosestHitColumns>;
 export type BoxHits = Records<BoxHit, BoxHitColumns>;
@@ -296,6 +297,10 @@ export interface Locator extends Owned {
   findRayHits(from: Positions, to: Positions, options?: QueryOptions): RayHits;
   /** The tetrahedra that segments pass through, of each segment by body and t. */
   findTracks(from: Positions, to: Positions, options?: QueryOptions): TrackPieces;
+  /** The closest points of segments and all surfaces: the distance is 0 where a segment meets a surface. */
+  findClosestToSegments(from: Positions, to: Positions, options?: QueryOptions): ClosestHits;
+  /** The tetrahedra that triangles meet, of each triangle by body and t. Each has three corners, which move to those in `to`. */
+  findTriangleHits(from: Positions, to?: Positions | null, options?: QueryOptions): TriangleHits;
   /** Of each ray 1 if it meets a tetrahedron, else 0. */
   testRays(from: Positions, to: Positions, options?: QueryOptions): Uint8Array;
 }

@@ -77,8 +77,8 @@ typedef struct vox_query_desc {
     uint64_t mask;       /* only bodies whose category had a bit in common with it; 0: all */
     vox_body excluded;   /* not this body, e.g. the asking body; an id that the locator does not have excludes none */
     uint32_t reserved;   /* 0 */
-    double max_distance; /* vox_locator_locate and vox_locator_find_closest: no further than this, in the caller's unit;
-                            0: any distance */
+    double max_distance; /* vox_locator_locate, vox_locator_find_closest and vox_locator_find_closest_to_segments: no
+                            further than this, in the caller's unit; 0: any distance */
 } vox_query_desc;
 
 static inline vox_query_desc vox_default_query_desc(void) {
@@ -236,6 +236,45 @@ typedef struct vox_track_piece {
 VOX_EXPERIMENTAL vox_result vox_locator_find_tracks(const vox_locator* locator, const vox_positions* from,
                                                     const vox_positions* to, VOX_OPTIONAL const vox_query_desc* desc,
                                                     vox_track_piece* pieces, uint64_t capacity, uint64_t* out_count);
+
+/* ---- instruments ------------------------------------------------------------------------------ */
+
+/* Finds the closest points of segments and all surfaces, e.g. of a capsule's axis: it touches where the distance is less
+ * than its radius. out_hits[i] is for the closed segment from from[i] to to[i], as for a point: `position` is the point
+ * of the surface that is closest to the segment. If the segment meets the surface, which is exact, the distance is 0.
+ * `inside` and the sign say where from[i] is: put the tip of a tool there, and ask vox_locator_find_closest how deep it
+ * is. Segments that are close together should follow each other. Errors: as
+ * vox_locator_find_closest, and INVALID_ARGUMENT (arrays of different lengths). */
+VOX_EXPERIMENTAL vox_result vox_locator_find_closest_to_segments(const vox_locator* locator, const vox_positions* from,
+                                                                 const vox_positions* to,
+                                                                 VOX_OPTIONAL const vox_query_desc* desc,
+                                                                 vox_closest_hit* out_hits);
+
+/* A tetrahedron that a triangle meets, and the edges of it that the triangle cuts. Edges are
+ *     0: corners 0, 1    1: 0, 2    2: 0, 3    3: 1, 2    4: 1, 3    5: 2, 3
+ * of the tetrahedron. */
+typedef struct vox_triangle_hit {
+    uint32_t triangle; /* index of the triangle */
+    vox_body body;
+    uint32_t tet;
+    uint32_t edges; /* bit k: the triangle meets edge k, an end of it included */
+    double t;       /* when the triangle first meets the tetrahedron; 0 if it does at first. The double nearest to the
+                       true time. */
+    double s[6];    /* where it first meets edge k, from 0 at the end with the lower vertex index to 1: the
+                       same for all tetrahedra that share the edge; 0 for edges that it does not meet */
+} vox_triangle_hit;
+
+/* Finds the tetrahedra that triangles meet, sorted by (triangle, body, t, tet): for a cut, in order along the motion.
+ * Points 3 i, 3 i + 1 and 3 i + 2 are the corners of triangle i, which may be a segment, e.g. a needle or the edge of a
+ * blade, or a point. With `to`, each corner moves on a line and steadily, from its place in `from`, where t is 0, to `to`,
+ * where t is 1. A hit is then a tetrahedron that the triangle meets at any time. Without, t is 0.
+ * Which tetrahedra and edges a triangle meets is exact, touching included, also for tetrahedra without volume; s is
+ * rounded. Errors: also INVALID_ARGUMENT (a count that is no multiple of 3; arrays of different lengths). */
+VOX_EXPERIMENTAL vox_result vox_locator_find_triangle_hits(const vox_locator* locator, const vox_positions* from,
+                                                           VOX_OPTIONAL const vox_positions* to,
+                                                           VOX_OPTIONAL const vox_query_desc* desc,
+                                                           vox_triangle_hit* hits, uint64_t capacity,
+                                                           uint64_t* out_count);
 
 #ifdef __cplusplus
 }

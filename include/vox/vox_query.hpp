@@ -106,6 +106,25 @@ public:
             return vox_locator_find_tracks(raw_, &from, &to, &desc, out.data(), out.size(), count);
         });
     }
+    // vox_locator_find_closest_to_segments: one hit a segment
+    std::vector<vox_closest_hit> find_closest_to_segments(const points& from, const points& to,
+                                                          const vox_query_desc& desc = any()) const {
+        std::vector<vox_closest_hit> hits(static_cast<std::size_t>(from.count));
+        detail::check(vox_locator_find_closest_to_segments(raw_, &from, &to, &desc, hits.data()));
+        return hits;
+    }
+    // vox_locator_find_triangle_hits: of triangles that stand still, and of moving ones
+    std::vector<vox_triangle_hit> find_triangle_hits(const points& corners,
+                                                     const vox_query_desc& desc = any()) const {
+        return detail::collect<vox_triangle_hit>(16, [&](auto... out) {
+            return vox_locator_find_triangle_hits(raw_, &corners, nullptr, &desc, out...);
+        });
+    }
+    std::vector<vox_triangle_hit> find_triangle_hits(const points& from, const points& to,
+                                                     const vox_query_desc& desc = any()) const {
+        return detail::collect<vox_triangle_hit>(
+            16, [&](auto... out) { return vox_locator_find_triangle_hits(raw_, &from, &to, &desc, out...); });
+    }
 
 private:
     explicit locator(vox_locator* raw) noexcept : raw_(raw) {}

@@ -161,6 +161,20 @@ vox_result vox_locator_find_closest(const vox_locator* locator, const vox_positi
     });
 }
 
+vox_result vox_locator_find_closest_to_segments(const vox_locator* locator, const vox_positions* from,
+                                                const vox_positions* to, const vox_query_desc* desc,
+                                                vox_closest_hit* out_hits) {
+    return border(locator, "locator", [&] {
+        const Asked asked = read_desc(desc);
+        CallMemory memory;
+        const Array<Vec3d> begins = read_points(from, "from", &memory), ends = read_points(to, "to", &memory);
+        check_same_count(*from, "from", *to, "to");
+        if (!begins.empty()) require(out_hits, "out_hits");
+        locator->queries.closest_to_segments(begins, ends, asked.max_distance, asked.bodies, &memory,
+                                             out_hits);
+    });
+}
+
 vox_result vox_locator_find_box_hits(const vox_locator* locator, const vox_positions* min,
                                      const vox_positions* max, const vox_query_desc* desc, vox_box_hit* hits,
                                      uint64_t capacity, uint64_t* out_count) {
@@ -233,5 +247,32 @@ vox_result vox_locator_test_rays(const vox_locator* locator, const vox_positions
         if (!begins.empty()) require(out_blocked, "out_blocked");
         for (std::size_t i = 0; i < begins.size(); ++i)
             out_blocked[i] = locator->queries.blocks(begins[i], ends[i], asked.bodies);
+    });
+}
+
+vox_result vox_locator_find_triangle_hits(const vox_locator* locator, const vox_positions* from,
+                                          const vox_positions* to, const vox_query_desc* desc,
+                                          vox_triangle_hit* hits, uint64_t capacity, uint64_t* out_count) {
+    return border(locator, "locator", [&] {
+        check_list(hits, capacity, out_count);
+        const Asked asked = read_desc(desc);
+        CallMemory memory;
+        const Array<Vec3d> begins = read_points(from, "from", &memory);
+        Array<Vec3d> ends(&memory);
+        if (to) {
+            ends = read_points(to, "to", &memory);
+            check_same_count(*from, "from", *to, "to");
+        }
+        if (begins.size() % 3 != 0)
+            refuse(format("from.count is %zu, expected a multiple of 3: three corners a triangle",
+                          begins.size()));
+        Array<vox_triangle_hit> found(&memory);
+        HitList<vox_triangle_hit> list(hits, capacity);
+        for (std::size_t i = 0; i < begins.size(); i += 3) {
+            found.clear();
+            locator->queries.triangle_hits(&begins[i], to ? &ends[i] : nullptr, asked.bodies, found);
+            append(list, found, &vox_triangle_hit::triangle, i / 3);
+        }
+        *out_count = list.count();
     });
 }

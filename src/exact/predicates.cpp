@@ -3,10 +3,11 @@
 // A finite double is an integer times a power of two. So the coordinates of a few points are integers in
 // units of the largest power of two that divides all of them; for the points of one scene these have two or
 // three words. Differences, products and sums take as many words as they need, so that nothing is ever
-// rounded (D. E. Knuth, The Art of Computer Programming 2, 1997, Sect. 4.3.1).
+// rounded.
 #include "exact/predicates.hpp"
 
 #include "exact/fixed_point.hpp"
+#include "exact/integer.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -19,122 +20,13 @@ static_assert(FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 1, "doubles must be rou
 namespace vox {
 namespace {
 
-// Sign and magnitude, in words of 32 bits, the least significant one first.
-struct Integer {
-    // Doubles are multiples of 2^-1074 below 2^1024, so a difference takes 66 words, a product of three 198,
-    // and a sum of six of these no more than 199.
-    static constexpr int most_words = 199;
-
-    int size = 0; // the top word is not zero
-    bool negative = false;
-    std::uint32_t word[most_words];
-
-    int sign() const { return size == 0 ? 0 : negative ? -1 : 1; }
-
-    void trim() {
-        while (size > 0 && word[size - 1] == 0) --size;
-    }
-};
-
-bool smaller_magnitude(const Integer& a, const Integer& b) {
-    if (a.size != b.size) return a.size < b.size;
-    for (int i = a.size; i-- > 0;)
-        if (a.word[i] != b.word[i]) return a.word[i] < b.word[i];
-    return false;
-}
-
-void add_magnitudes(const Integer& longer, const Integer& shorter, Integer& out) {
-    std::uint64_t carry = 0;
-    for (int i = 0; i < longer.size; ++i, carry >>= 32) {
-        carry += std::uint64_t{longer.word[i]} + (i < shorter.size ? shorter.word[i] : 0);
-        out.word[i] = static_cast<std::uint32_t>(carry);
-    }
-    out.size = longer.size;
-    if (carry) out.word[out.size++] = static_cast<std::uint32_t>(carry);
-}
-
-void subtract_magnitudes(const Integer& larger, const Integer& smaller, Integer& out) {
-    std::uint64_t borrow = 0;
-    for (int i = 0; i < larger.size; ++i) {
-        const std::uint64_t difference =
-            std::uint64_t{larger.word[i]} - (i < smaller.size ? smaller.word[i] : 0) - borrow;
-        out.word[i] = static_cast<std::uint32_t>(difference);
-        borrow = difference >> 63;
-    }
-    out.size = larger.size;
-    out.trim();
-}
-
-Integer sum(const Integer& a, const Integer& b, bool b_negative) {
-    Integer result;
-    const bool swap = smaller_magnitude(a, b);
-    const Integer &larger = swap ? b : a, &smaller = swap ? a : b;
-    if (a.negative == b_negative)
-        add_magnitudes(larger, smaller, result);
-    else
-        subtract_magnitudes(larger, smaller, result);
-    result.negative = swap ? b_negative : a.negative;
-    return result;
-}
-
-Integer operator+(const Integer& a, const Integer& b) { return sum(a, b, b.negative); }
-Integer operator-(const Integer& a, const Integer& b) { return sum(a, b, !b.negative); }
-
-Integer operator*(const Integer& a, const Integer& b) {
-    Integer result;
-    if (a.size == 0 || b.size == 0) return result;
-    result.negative = a.negative != b.negative;
-    result.size = a.size + b.size;
-    std::fill_n(result.word, b.size, 0u);
-    for (int i = 0; i < a.size; ++i) {
-        std::uint64_t carry = 0;
-        for (int j = 0; j < b.size; ++j, carry >>= 32) {
-            carry += std::uint64_t{a.word[i]} * b.word[j] + result.word[i + j];
-            result.word[i + j] = static_cast<std::uint32_t>(carry);
-        }
-        result.word[i + b.size] = static_cast<std::uint32_t>(carry);
-    }
-    result.trim();
-    return result;
-}
-
-// |value| == mantissa * 2^exponent, the mantissa odd; 0 for 0.
-struct Parts {
-    std::uint64_t mantissa;
-    int exponent;
-};
-
-Parts parts(double value) {
-    const auto bits = std::bit_cast<std::uint64_t>(value);
-    const int biased = static_cast<int>(bits >> 52 & 0x7ff);
-    const std::uint64_t mantissa = (bits & 0xfffffffffffff) | std::uint64_t{biased != 0} << 52;
-    if (mantissa == 0) return {0, 0};
-    const int zeros = std::countr_zero(mantissa);
-    return {mantissa >> zeros, std::max(biased, 1) - 1075 + zeros};
-}
+using Integer = IntegerIn<VolumeWords>;
 
 // A point in units of the largest power of two that divides all coordinates of a few points.
 struct IntegerPoint {
     Integer x, y, z;
 };
 
-Integer in_units(double value, int unit) {
-    Integer result;
-    const Parts from = parts(value);
-    if (from.mantissa == 0) return result;
-    result.negative = std::signbit(value);
-    const int words = (from.exponent - unit) / 32, bits = (from.exponent - unit) % 32;
-    std::fill_n(result.word, words, 0u);
-    const std::uint64_t low = from.mantissa << bits;
-    result.word[words] = static_cast<std::uint32_t>(low);
-    result.word[words + 1] = static_cast<std::uint32_t>(low >> 32);
-    result.word[words + 2] = bits == 0 ? 0 : static_cast<std::uint32_t>(from.mantissa >> (64 - bits));
-    result.size = words + 3;
-    result.trim();
-    return result;
-}
-
-// Reads the bits of the coordinates, so that no floating-point environment makes a shift negative.
 template <std::size_t Count>
 std::array<IntegerPoint, Count> in_units(const std::array<Vec3d, Count>& points) {
     int unit = 1024;
@@ -143,7 +35,8 @@ std::array<IntegerPoint, Count> in_units(const std::array<Vec3d, Count>& points)
             if (const Parts from = parts(value); from.mantissa != 0) unit = std::min(unit, from.exponent);
     std::array<IntegerPoint, Count> result;
     for (std::size_t i = 0; i < Count; ++i)
-        result[i] = {in_units(points[i].x, unit), in_units(points[i].y, unit), in_units(points[i].z, unit)};
+        result[i] = {integer_of<VolumeWords>(points[i].x, unit), integer_of<VolumeWords>(points[i].y, unit),
+                     integer_of<VolumeWords>(points[i].z, unit)};
     return result;
 }
 
@@ -156,46 +49,26 @@ Integer exact_volume(const IntegerPoint& a, const IntegerPoint& b, const Integer
     return (vx * wy - wx * vy) * uz + (wx * uy - ux * wy) * vz + (ux * vy - vx * uy) * wz;
 }
 
-int bit_count(const Integer& i) {
-    return i.size == 0 ? 0 : 32 * i.size - std::countl_zero(i.word[i.size - 1]);
-}
-
 // i / 2^bits, rounded to nearest once: rounds the top 64 bits, the last of which is set if any lower bit is.
 double scaled(const Integer& i, int bits) {
     if (i.size == 0) return 0;
-    const auto word = [&i](int index) { return index >= 0 ? std::uint64_t{i.word[index]} : 0; };
-    const int zeros = std::countl_zero(i.word[i.size - 1]);
+    const auto word = [&i](int index) { return index >= 0 ? std::uint64_t{i.word()[index]} : 0; };
+    const int zeros = std::countl_zero(i.word()[i.size - 1]);
     const std::uint64_t high = word(i.size - 1) << 32 | word(i.size - 2);
     const std::uint64_t low = word(i.size - 3) << 32;
     std::uint64_t top = zeros == 0 ? high : high << zeros | low >> (64 - zeros);
-    const bool rest = (low << zeros) != 0 || std::any_of(i.word, i.word + std::max(i.size - 3, 0),
+    const bool rest = (low << zeros) != 0 || std::any_of(i.word(), i.word() + std::max(i.size - 3, 0),
                                                          [](std::uint32_t w) { return w != 0; });
     top |= std::uint64_t{rest};
-    const double value = std::ldexp(static_cast<double>(top), bit_count(i) - 64 - bits);
+    const double value = std::ldexp(static_cast<double>(top), i.bits() - 64 - bits);
     return i.negative ? -value : value;
-}
-
-Integer shifted_left(const Integer& i, int bits) {
-    Integer result;
-    const int words = bits / 32, rest = bits % 32;
-    std::fill_n(result.word, words, 0u);
-    std::uint64_t carry = 0;
-    for (int w = 0; w < i.size; ++w, carry >>= 32) {
-        carry |= std::uint64_t{i.word[w]} << rest;
-        result.word[words + w] = static_cast<std::uint32_t>(carry);
-    }
-    result.word[words + i.size] = static_cast<std::uint32_t>(carry);
-    result.size = words + i.size + 1;
-    result.negative = i.negative;
-    result.trim();
-    return result;
 }
 
 // over / under, rounded to nearest once, for `under` other than 0: its 60 highest bits by long division, the
 // last of which is set if any lower bit is.
 double rounded_quotient(const Integer& over, const Integer& under) {
     if (over.size == 0) return 0;
-    const int bits = bit_count(over) - bit_count(under);
+    const int bits = over.bits() - under.bits();
     Integer rest = shifted_left(over, std::max(-bits, 0));
     const Integer by = shifted_left(under, std::max(bits, 0));
     const bool negative = over.negative != under.negative;
@@ -259,8 +132,7 @@ void scaled_volumes(const VolumePoints& points, std::span<const VolumeCorners> o
                     std::span<double> volumes) {
     const auto p = in_units(points);
     int bits = 0; // of the largest volume
-    for (const auto& [a, b, c, d] : of)
-        bits = std::max(bits, bit_count(exact_volume(p[a], p[b], p[c], p[d])));
+    for (const auto& [a, b, c, d] : of) bits = std::max(bits, exact_volume(p[a], p[b], p[c], p[d]).bits());
     for (std::size_t i = 0; i < of.size(); ++i) {
         const auto& [a, b, c, d] = of[i];
         volumes[i] = scaled(exact_volume(p[a], p[b], p[c], p[d]), bits);
@@ -272,7 +144,7 @@ Vec3d exact_normal(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
     const Integer ux = p[1].x - p[0].x, uy = p[1].y - p[0].y, uz = p[1].z - p[0].z;
     const Integer vx = p[2].x - p[0].x, vy = p[2].y - p[0].y, vz = p[2].z - p[0].z;
     const Integer x = uy * vz - vy * uz, y = uz * vx - vz * ux, z = ux * vy - vx * uy;
-    const int bits = std::max({bit_count(x), bit_count(y), bit_count(z)});
+    const int bits = std::max({x.bits(), y.bits(), z.bits()});
     return {scaled(x, bits), scaled(y, bits), scaled(z, bits)};
 }
 

@@ -7,6 +7,7 @@
 #include "base/boxes.hpp"
 #include "base/parallel.hpp"
 #include "base/scene.hpp"
+#include "exact/closest_point.hpp"
 #include "mesh/tiles.hpp"
 #include "query/tets.hpp"
 
@@ -88,6 +89,10 @@ public:
     // One hit a point; `memory` is for temporary use.
     void closest_points(std::span<const Vec3d> points, double max_distance, QueryMeshes which,
                         std::pmr::memory_resource* memory, vox_closest_hit* hits) const;
+    // One hit a segment, likewise.
+    void closest_to_segments(std::span<const Vec3d> from, std::span<const Vec3d> to, double max_distance,
+                             QueryMeshes which, std::pmr::memory_resource* memory,
+                             vox_closest_hit* hits) const;
     // The hits of box 0, sorted by (body, tet), into an empty `hits`.
     void box(const Vec3d& min, const Vec3d& max, QueryMeshes which, Array<vox_box_hit>& hits) const;
     // The hits of ray 0, sorted by (t, body, tet, facet), into an empty `hits`.
@@ -98,6 +103,10 @@ public:
     // The pieces of segments in canonical order; `memory` is for temporary use.
     void tracks(std::span<const Vec3d> from, std::span<const Vec3d> to, QueryMeshes which,
                 std::pmr::memory_resource* memory, HitList<vox_track_piece>& pieces) const;
+    // The hits of triangle 0, of three corners, sorted by (body, t, tet), into an empty `hits`. `to` may be
+    // null.
+    void triangle_hits(const Vec3d* from, const Vec3d* to, QueryMeshes which,
+                       Array<vox_triangle_hit>& hits) const;
 
 private:
     struct Mesh {
@@ -131,6 +140,7 @@ private:
     class Tracker;
     using FacetKey = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>; // mesh in meshes_, tet, facet
     struct ClosestFacet;
+    struct ClosestToSegment;
 
     void copy_positions(std::span<const QueryBody> bodies, std::size_t begin, std::size_t end) noexcept;
     void make_boxes(std::uint32_t leaf) noexcept;
@@ -167,6 +177,9 @@ private:
     template <class Bound, class Visit>
     void visit_facets(QueryMeshes which, const double& most, const Bound& bound, Visit&& visit) const;
     void find_closest(const Vec3d& p, QueryMeshes which, ClosestFacet& closest) const noexcept;
+    // The closest point of p, as seen from it, on a facet of a tetrahedron: see PointHit.
+    void write_closest(const Vec3d& p, const FacetKey& key, std::uint32_t leaf, std::size_t place,
+                       const SeenPoint& seen, double distance, vox_closest_hit& hit) const;
     // Calls answer(index, closest facet) for each point, in any order.
     template <class Answer>
     void for_closest(std::span<const Vec3d> points, double max_distance, QueryMeshes which,

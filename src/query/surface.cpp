@@ -115,26 +115,29 @@ void Queries::for_closest(std::span<const Vec3d> points, double max_distance, Qu
     for (const std::uint64_t place : order) search(static_cast<std::uint32_t>(place));
 }
 
+void Queries::write_closest(const Vec3d& p, const FacetKey& key, std::uint32_t leaf, std::size_t place,
+                            const SeenPoint& seen, double distance, vox_closest_hit& hit) const {
+    const auto [mesh, tet, facet] = key;
+    const LeafTets tets = tets_of(leaves_[leaf]);
+    hit.body = meshes_[mesh].id;
+    hit.tet = tet;
+    hit.facet = facet;
+    tets.write_face(place, facet, hit.face);
+    hit.distance = distance;
+    std::ranges::copy(normalised(seen.at.weight), hit.weights);
+    write(hit.position, p + seen.way);
+    const OrderedFacet f(tets, place, facet);
+    write(hit.normal, facet_normal(tets.at(f.vertex[0]), tets.at(f.vertex[1]), tets.at(f.vertex[2]),
+                                   tets.corner(place, facet), p, seen.way));
+}
+
 void Queries::closest_points(std::span<const Vec3d> points, double max_distance, QueryMeshes which,
                              std::pmr::memory_resource* memory, vox_closest_hit* hits) const {
     const auto answer = [&](std::size_t i, const ClosestFacet& closest) {
-        const Vec3d& p = points[i];
-        vox_closest_hit hit{};
-        if (closest.any) {
-            const auto [mesh, tet, facet] = closest.key;
-            const LeafTets tets = tets_of(leaves_[closest.leaf]);
-            hit.body = meshes_[mesh].id;
-            hit.tet = tet;
-            hit.facet = facet;
-            tets.write_face(closest.place, facet, hit.face);
-            hit.distance = std::sqrt(closest.squared);
-            std::ranges::copy(normalised(closest.seen.at.weight), hit.weights);
-            write(hit.position, p + closest.seen.way);
-            const OrderedFacet f(tets, closest.place, facet);
-            write(hit.normal, facet_normal(tets.at(f.vertex[0]), tets.at(f.vertex[1]), tets.at(f.vertex[2]),
-                                           tets.corner(closest.place, facet), p, closest.seen.way));
-        }
-        hits[i] = hit;
+        hits[i] = {};
+        if (closest.any)
+            write_closest(points[i], closest.key, closest.leaf, closest.place, closest.seen,
+                          std::sqrt(closest.squared), hits[i]);
     };
     for_closest(points, max_distance, which, memory, answer);
     count_inside(points, which, memory, hits);

@@ -383,6 +383,11 @@ START_TEST(arrays_of_another_size_are_errors) {
     ck_assert_uint_ge(pieces.size(), 4);
     ck_assert_uint_eq(locator.find_tracks(columns, ends, first), pieces.size());
     ck_assert_mem_eq(first.data(), pieces.data(), sizeof first[0]);
+    ck_assert_uint_eq(locator.find_closest_to_segments(columns, ends).size(), 4);
+    throws([&] { locator.find_triangle_hits(columns); }, VOX_ERROR_INVALID_ARGUMENT, "multiple of 3");
+    const Eigen::Matrix<float, Eigen::Dynamic, 3> blade = columns.topRows(3), moved = ends.topRows(3);
+    ck_assert_uint_ge(locator.find_triangle_hits(blade, moved).size(),
+                      locator.find_triangle_hits(blade).size());
     with.grid.step(); // and the grid is as it was
     ck_assert_uint_eq(with.grid.meshes().size(), 2);
 }

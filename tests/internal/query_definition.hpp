@@ -48,6 +48,7 @@ public:
     }
 
     using Facet = std::pair<std::uint32_t, std::uint32_t>; // tet, facet
+    const std::vector<Facet>& surface() const { return surface_; }
     // With the squared distance.
     std::pair<double, Facet> closest(const Vec3d& p) const {
         std::pair<double, Facet> best{std::numeric_limits<double>::infinity(), {}};

@@ -152,6 +152,40 @@ namespace Voxtet
             return count;
         }
 
+        /// <summary>The closest points of segments and all surfaces; the distance is 0 where a segment meets a
+        /// surface.</summary>
+        public void FindClosestToSegments(ReadOnlySpan<double> from, ReadOnlySpan<double> to, Span<ClosestHit> hits,
+                                          QueryDesc desc = default(QueryDesc))
+        {
+            CheckRoom(from, hits.Length, "hits");
+            desc.struct_size = (uint)sizeof(QueryDesc);
+            fixed (double* a = &MemoryMarshal.GetReference(from), b = &MemoryMarshal.GetReference(to))
+            fixed (ClosestHit* h = &MemoryMarshal.GetReference(hits))
+            using (var use = handle.Read())
+            {
+                Positions begins = At(a, from, "from"), ends = At(b, to, "to");
+                VoxException.Check(Native.vox_locator_find_closest_to_segments(use.Pointer, &begins, &ends, &desc, h));
+            }
+        }
+
+        /// <summary>The tetrahedra that triangles meet, each of three corners, sorted by (triangle, body, t). They move to the
+        /// corners in <paramref name="to"/>, or stand still if it is empty.</summary>
+        public ulong FindTriangleHits(ReadOnlySpan<double> from, ReadOnlySpan<double> to, Span<TriangleHit> hits,
+                                      QueryDesc desc = default(QueryDesc))
+        {
+            ulong count;
+            desc.struct_size = (uint)sizeof(QueryDesc);
+            fixed (double* a = &MemoryMarshal.GetReference(from), b = &MemoryMarshal.GetReference(to))
+            fixed (TriangleHit* h = &MemoryMarshal.GetReference(hits))
+            using (var use = handle.Read())
+            {
+                Positions begins = At(a, from, "from"), ends = At(b, to, "to");
+                VoxException.Check(Native.vox_locator_find_triangle_hits(use.Pointer, &begins, to.IsEmpty ? null : &ends, &desc,
+                                                                         h, (ulong)hits.Length, &count));
+            }
+            return count;
+        }
+
         /// <summary>Whether each ray meets a tetrahedron: 1 or 0.</summary>
         public void TestRays(ReadOnlySpan<double> from, ReadOnlySpan<double> to, Span<byte> blocked,
                              QueryDesc desc = default(QueryDesc))

@@ -498,6 +498,19 @@ namespace Voxtet
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct Double6
+    {
+        public double e0, e1, e2, e3, e4, e5;
+        public const int Length = 6;
+        public double this[int i]
+        {
+            get { Check(i); fixed (double* p = &e0) return p[i]; }
+            set { Check(i); fixed (double* p = &e0) p[i] = value; }
+        }
+        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct CostSample64
     {
         public CostSample e0, e1, e2, e3, e4, e5, e6, e7, e8, e9, e10, e11, e12, e13, e14, e15, e16, e17, e18, e19, e20,
@@ -965,8 +978,8 @@ namespace Voxtet
         public uint excluded;
         /// <summary>0</summary>
         public uint reserved;
-        /// <summary>vox_locator_locate and vox_locator_find_closest: no further than this, in the caller's unit; 0: any
-        /// distance</summary>
+        /// <summary>vox_locator_locate, vox_locator_find_closest and vox_locator_find_closest_to_segments: no further
+        /// than this, in the caller's unit; 0: any distance</summary>
         public double max_distance;
     }
 
@@ -1070,6 +1083,23 @@ namespace Voxtet
         /// <summary>the doubles nearest to the true ones</summary>
         public double t_in;
         public double t_out;
+    }
+
+    /// <summary>A tetrahedron that a triangle meets, and the edges of it that the triangle cuts.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 72)]
+    public struct TriangleHit
+    {
+        /// <summary>index of the triangle</summary>
+        public uint triangle;
+        public uint body;
+        public uint tet;
+        /// <summary>bit k: the triangle meets edge k, an end of it included</summary>
+        public uint edges;
+        /// <summary>when the triangle first meets the tetrahedron; 0 if it does at first.</summary>
+        public double t;
+        /// <summary>where it first meets edge k, from 0 at the end with the lower vertex index to 1: the same for all
+        /// tetrahedra that share the edge; 0 for edges that it does not meet</summary>
+        public Double6 s;
     }
 
     /// <summary>A point of a cost curve.</summary>
@@ -2169,6 +2199,19 @@ namespace Voxtet
         internal static extern Result vox_locator_find_tracks(IntPtr locator, Positions* from, Positions* to, QueryDesc*
             desc, TrackPiece* pieces, ulong capacity, ulong* out_count);
 
+        /// <summary>Finds the closest points of segments and all surfaces, e.g. of a capsule's axis: it touches where
+        /// the distance is less than its radius. out_hits[i] is for the closed segment from from[i] to to[i], as for a
+        /// point: `position` is the point of the surface that is closest to the segment.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_locator_find_closest_to_segments(IntPtr locator, Positions* from, Positions*
+            to, QueryDesc* desc, ClosestHit* out_hits);
+
+        /// <summary>Finds the tetrahedra that triangles meet, sorted by (triangle, body, t, tet): for a cut, in order
+        /// along the motion.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_locator_find_triangle_hits(IntPtr locator, Positions* from, Positions* to,
+            QueryDesc* desc, TriangleHit* hits, ulong capacity, ulong* out_count);
+
         /// <summary>Suggests the cell size with the least cost for these meshes as they are now.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_suggest_cell_size(CellSizeDesc* desc, MeshDesc* meshes, ulong mesh_count,
@@ -2804,6 +2847,19 @@ namespace Voxtet
             entries.Add(Entry("vox_track_piece.t_out", (byte*)&s.t_out - begin, 32, 32));
         }
 
+        static void AddTriangleHit(List<LayoutEntry> entries)
+        {
+            TriangleHit s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_triangle_hit", sizeof(TriangleHit), 72, 72));
+            entries.Add(Entry("vox_triangle_hit.triangle", (byte*)&s.triangle - begin, 0, 0));
+            entries.Add(Entry("vox_triangle_hit.body", (byte*)&s.body - begin, 4, 4));
+            entries.Add(Entry("vox_triangle_hit.tet", (byte*)&s.tet - begin, 8, 8));
+            entries.Add(Entry("vox_triangle_hit.edges", (byte*)&s.edges - begin, 12, 12));
+            entries.Add(Entry("vox_triangle_hit.t", (byte*)&s.t - begin, 16, 16));
+            entries.Add(Entry("vox_triangle_hit.s", (byte*)&s.s - begin, 24, 24));
+        }
+
         static void AddCostSample(List<LayoutEntry> entries)
         {
             CostSample s;
@@ -3405,6 +3461,7 @@ namespace Voxtet
             AddBoxHit(entries);
             AddRayHit(entries);
             AddTrackPiece(entries);
+            AddTriangleHit(entries);
             AddCostSample(entries);
             AddCostTerm(entries);
             AddCellSizeRule(entries);

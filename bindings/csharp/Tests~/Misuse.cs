@@ -318,6 +318,15 @@ namespace Voxtet.Tests
             var pieces = new TrackPiece[99];
             ulong tracks = locator.FindTracks(from, to, pieces, new QueryDesc { excluded = b.Id });
             Test.That(tracks > 2 && pieces[0].t_out == pieces[1].t_in, tracks + " pieces");
+            var axes = new ClosestHit[2];
+            locator.FindClosestToSegments(from, to, axes);
+            Test.That(axes[0].distance == 0 && axes[1].distance > 0, "closest to segments");
+            var blade = new[] { from[0], from[1], from[2], to[0], to[1], to[2], to[0], to[1], to[2] };
+            var tip = new[] { from[0], from[1], from[2], from[0], from[1], from[2], from[0], from[1], from[2] };
+            var cut = new TriangleHit[999];
+            ulong still = locator.FindTriangleHits(blade, new double[0], cut);
+            Test.That(still > 2 && cut[0].t == 0, still + " tetrahedra of a blade");
+            Test.That(locator.FindTriangleHits(tip, blade, cut) > 2 && cut[0].t > 0, "a moving blade");
             Test.Throws<ArgumentException>(() => locator.Locate(from, location), "room for 1, expected 2");
             locator.FindClosest(point, closest, new QueryDesc { max_distance = 0.5 });
             Test.Same(closest[0].body, 0u, "nothing is near");

@@ -44,9 +44,9 @@ export class Locator extends Owned {
   #ask(name, arrays, settings, answer) {
     const memory = memoryOf(this);
     const given = fields(settings, "options", "vox_query_desc", DESC);
-    const checked = Object.entries(arrays).map(([what, array]) => positions(array, what, memory));
+    const checked = Object.entries(arrays).map(([what, array]) => array && positions(array, what, memory));
     return memory.frame((frame) => {
-      const asked = checked.map((array) => frame.struct("vox_positions", frame.positions(array)));
+      const asked = checked.map((array) => array && frame.struct("vox_positions", frame.positions(array)));
       const desc = frame.struct("vox_query_desc", given);
       return answer(frame, checked[0].length / 3, (...out) => memory.call[name](pointerOf(this), ...asked, desc, ...out));
     });
@@ -72,9 +72,9 @@ export class Locator extends Owned {
     return this.#find("vox_locator_find_point_hits", "vox_point_hit", { points }, settings);
   }
 
-  /** One record for each point. */
-  #each(name, struct, points, settings) {
-    return this.#ask(name, { points }, settings, (frame, questions, ask) => {
+  /** One record for each question. */
+  #each(name, struct, arrays, settings) {
+    return this.#ask(name, arrays, settings, (frame, questions, ask) => {
       const out = frame.take(questions * structs[struct].size);
       ask(out);
       return records(memoryOf(this), struct, out, questions);
@@ -82,11 +82,11 @@ export class Locator extends Owned {
   }
 
   locate(points, settings) {
-    return this.#each("vox_locator_locate", "vox_location", points, settings);
+    return this.#each("vox_locator_locate", "vox_location", { points }, settings);
   }
 
   findClosest(points, settings) {
-    return this.#each("vox_locator_find_closest", "vox_closest_hit", points, settings);
+    return this.#each("vox_locator_find_closest", "vox_closest_hit", { points }, settings);
   }
 
   findBoxHits(min, max, settings) {
@@ -99,6 +99,14 @@ export class Locator extends Owned {
 
   findTracks(from, to, settings) {
     return this.#find("vox_locator_find_tracks", "vox_track_piece", { from, to }, settings);
+  }
+
+  findClosestToSegments(from, to, settings) {
+    return this.#each("vox_locator_find_closest_to_segments", "vox_closest_hit", { from, to }, settings);
+  }
+
+  findTriangleHits(from, to, settings) {
+    return this.#find("vox_locator_find_triangle_hits", "vox_triangle_hit", { from, to: to ?? 0 }, settings);
   }
 
   testRays(from, to, settings) {

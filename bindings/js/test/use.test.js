@@ -247,6 +247,13 @@ test("locators", () => {
   assert.ok(beyond[0].weights.every((w) => w >= 0) && beyond[1].weights.some((w) => w < 0));
   const pieces = locator.findTracks(from, to, { excluded: right.id });
   assert.ok(pieces.length > 2 && pieces.tIn.every((t, i) => i === 0 || t === pieces.tOut[i - 1]));
+  const axes = locator.findClosestToSegments(from, to);
+  assert.ok(axes.distance[0] === 0 && axes.distance[1] > 0);
+  const [tip, end] = [[...from.subarray(0, 3)], [...to.subarray(0, 3)]];
+  const blade = new Float32Array([...tip, ...end, ...end]);
+  assert.ok(locator.findTriangleHits(blade).length > 2);
+  const cut = locator.findTriangleHits(new Float32Array([...tip, ...tip, ...tip]), blade);
+  assert.ok(cut.length > 2 && cut.t.every((t) => t > 0));
   const hits = locator.findRayHits(from, to, { excluded: right.id });
   assert.deepEqual([[...hits.ray], [...hits.side]], [[0, 0], [Side.ENTERS, Side.LEAVES]]);
   assert.equal(locator.findRayHits(from, to, { flags: QueryFlags.FIRST_HIT }).length, 1);

@@ -285,6 +285,22 @@ class InTetrahedra(unittest.TestCase):
         np.testing.assert_array_equal(pieces.tet, tet)
         self.assertEqual(pieces.facet_in[0] == voxtet.NONE, bool(t_in[0] == 0))
 
+    def test_instruments(self):
+        axis = self.locator.find_closest_to_segments([[-5, 0, 0], [9, 9, 9]], [[5, 0, 0], [9, 9, 8]])
+        self.assertEqual(axis.distance[0], 0)
+        self.assertGreater(axis.distance[1], 0)
+        near = self.locator.find_closest_to_segments([9, 9, 9], [9, 9, 8], max_distance=0.5)
+        self.assertEqual(near.body[0], 0)
+        needle = [[-5, 0.01, 0.02], [5, 0.03, 0.01], [5, 0.03, 0.01]]
+        hits = self.locator.find_triangle_hits(needle)
+        pieces = self.locator.find_tracks(needle[0], needle[1])
+        np.testing.assert_array_equal(np.unique(hits.tet), np.unique(pieces.tet))
+        pushed = self.locator.find_triangle_hits([needle[0]] * 3, needle)
+        np.testing.assert_array_equal(np.unique(pushed.tet), np.unique(hits.tet))
+        self.assertTrue((np.diff(pushed.t) >= 0).all() and pushed.t[0] > 0)
+        with self.assertRaises(ValueError):
+            self.locator.find_triangle_hits(needle[:2])
+
     def test_tracks_in_cells(self):
         """Those of a cell that was split are joined."""
         offsets, cell, t_in, t_out = voxtet.tracks([[-1, 0.3, 0.4]], [[3, 0.3, 0.4]], Mesh(

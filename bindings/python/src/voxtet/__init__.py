@@ -13,7 +13,7 @@ from .errors import (BudgetError, FileError, FormatError, InternalError, Invalid
                      OutOfMemoryError, UnsupportedError, VoxError)
 from .foreign import ForeignCounts, ForeignGrid, Primitives, tune
 from .grid import ALL_CORES, Failure, Grid, step_all
-from .locate import BoxHits, ClosestHits, Located, Locator, PointHits, RayHits, TrackPieces, Tracks, locate, tracks
+from .locate import BoxHits, ClosestHits, Located, Locator, PointHits, RayHits, TrackPieces, Tracks, TriangleHits, locate, tracks
 from .mesh import Mesh, MeshInfo
 from .reference import Reference
 from .results import Borrowed, Constraints, Contacts, Jacobian, Pairs

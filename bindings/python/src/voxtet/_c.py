@@ -704,6 +704,23 @@ dtypes["vox_track_piece"] = dtype({
     "itemsize": 40})
 
 
+class vox_triangle_hit(Structure):
+    _fields_ = [
+        ("triangle", c_uint32),
+        ("body", c_uint32),
+        ("tet", c_uint32),
+        ("edges", c_uint32),
+        ("t", c_double),
+        ("s", c_double * 6),
+    ]
+
+dtypes["vox_triangle_hit"] = dtype({
+    "names": ["triangle", "body", "tet", "edges", "t", "s"],
+    "formats": ["u4", "u4", "u4", "u4", "f8", ("f8", (6,))],
+    "offsets": [0, 4, 8, 12, 16, 24],
+    "itemsize": 72})
+
+
 class vox_cost_sample(Structure):
     _fields_ = [
         ("cell_size", c_double),
@@ -1351,6 +1368,10 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_locator_test_rays": (vox_result, (c_void_p, POINTER(vox_positions), POINTER(vox_positions),
             POINTER(vox_query_desc), c_void_p)),
         "vox_locator_find_tracks": (vox_result, (c_void_p, POINTER(vox_positions), POINTER(vox_positions),
+            POINTER(vox_query_desc), c_void_p, c_uint64, POINTER(c_uint64))),
+        "vox_locator_find_closest_to_segments": (vox_result, (c_void_p, POINTER(vox_positions), POINTER(vox_positions),
+            POINTER(vox_query_desc), c_void_p)),
+        "vox_locator_find_triangle_hits": (vox_result, (c_void_p, POINTER(vox_positions), POINTER(vox_positions),
             POINTER(vox_query_desc), c_void_p, c_uint64, POINTER(c_uint64))),
     },
     "vox_cell_size": {

@@ -79,6 +79,18 @@ class TrackPieces(Records):
     t_out: NDArray[np.float64]
 
 
+class TriangleHits(Records):
+    """Tetrahedra that triangles meet, sorted by (triangle, body, t, tet). Bit k of `edges` is set if the triangle meets edge k,
+    first at `s[:, k]`, from 0 at the end with the lower vertex index to 1. Edges are corners 01, 02, 03, 12, 13, 23."""
+
+    triangle: NDArray[np.uint32]
+    body: NDArray[np.uint32]
+    tet: NDArray[np.uint32]
+    edges: NDArray[np.uint32]
+    t: NDArray[np.float64]
+    s: NDArray[np.float64]
+
+
 class Tracks(NamedTuple):
     """What segments pass through. Segment i has the entries from offsets[i] to offsets[i + 1]: the tetrahedron, or the caller's
     cell, and where the segment enters and leaves it, from 0 at its start to 1 at its end."""
@@ -120,6 +132,7 @@ _BOX_HIT = record_type("vox_box_hit")
 _RAY_HIT = record_type("vox_ray_hit")
 _LOCATION = record_type("vox_location")
 _TRACK_PIECE = record_type("vox_track_piece")
+_TRIANGLE_HIT = record_type("vox_triangle_hit")
 _OUTSIDE = ("none", "nearest", "extrapolate")
 _AT_ONCE = 1 << 16  # points whose answers stay in the cache until they are taken apart
 _Body = Union[Mesh, int, None]
@@ -210,13 +223,37 @@ class Locator:
         """The closest point on the surfaces of the bodies for each of the points; max_distance 0: at any distance."""
         at, desc = _batch(points, "points"), _desc(mask, excluded)
         desc.max_distance = real(max_distance, "max_distance")
+        return self._closest(lambda locator, hits: vox.vox_locator_find_closest(locator, at.struct, desc, hits), at.length)
+
+    def _closest(self, call: Any, count: int) -> ClosestHits:
         handle, cells = self._open()
-        hits = np.empty(at.length, _CLOSEST_HIT).view(ClosestHits)
-        vox.vox_locator_find_closest(handle.pointer, at.struct, desc, hits.ctypes.data)
+        hits = np.empty(count, _CLOSEST_HIT).view(ClosestHits)
+        call(handle.pointer, hits.ctypes.data)
         if cells is not None:
             found = hits.body > 0
             hits.tet[found] = cells[hits.tet[found]]
         return hits
+
+    def find_closest_to_segments(self, start: ArrayLike, end: ArrayLike, *, max_distance: float = 0.0, mask: int = 0,
+                                 excluded: _Body = None) -> ClosestHits:
+        """The closest point on the surfaces of the bodies for each of the segments, e.g. the axes of capsules. The distance is 0
+        where a segment meets the surface, which is exact; `inside` and its sign are those of start[i]."""
+        start_, end_, desc = _batch(start, "start"), _batch(end, "end"), _desc(mask, excluded)
+        desc.max_distance = real(max_distance, "max_distance")
+        return self._closest(lambda locator, hits: vox.vox_locator_find_closest_to_segments(
+            locator, start_.struct, end_.struct, desc, hits), start_.length)
+
+    def find_triangle_hits(self, start: ArrayLike, end: Optional[ArrayLike] = None, *, mask: int = 0,
+                           excluded: _Body = None) -> TriangleHits:
+        """The tetrahedra that triangles meet, exact, and their edges that these cut. Each three rows are the corners of a
+        triangle. With `end`, each corner moves there, on a line, and `t` says when the triangle first meets the
+        tetrahedron."""
+        start_, desc = _batch(np.reshape(start, (-1, 3)), "start"), _desc(mask, excluded)
+        if end is not None:
+            return self._find(vox.vox_locator_find_triangle_hits, TriangleHits, _TRIANGLE_HIT,  # type: ignore[no-any-return]
+                              desc, 64, start_, _batch(np.reshape(end, (-1, 3)), "end"))
+        return self._find(lambda locator, at, *rest: vox.vox_locator_find_triangle_hits(  # type: ignore[no-any-return]
+            locator, at, None, *rest), TriangleHits, _TRIANGLE_HIT, desc, 64, start_)
 
     def find_box_hits(self, low: ArrayLike, high: ArrayLike, *, mask: int = 0, excluded: _Body = None) -> BoxHits:
         """All tetrahedra whose bounding box meets the box from low[i] to high[i]; exact. Corners may be infinite."""

@@ -835,7 +835,8 @@ pub struct vox_query_desc {
     pub excluded: vox_body,
     /// 0
     pub reserved: u32,
-    /// vox_locator_locate and vox_locator_find_closest: no further than this, in the caller's unit; 0: any distance
+    /// vox_locator_locate, vox_locator_find_closest and vox_locator_find_closest_to_segments: no further than this, in
+    /// the caller's unit; 0: any distance
     pub max_distance: f64,
 }
 
@@ -944,6 +945,24 @@ pub struct vox_track_piece {
     /// the doubles nearest to the true ones
     pub t_in: f64,
     pub t_out: f64,
+}
+
+/// A tetrahedron that a triangle meets, and the edges of it that the triangle cuts. Edges are 0: corners 0, 1 1: 0, 2
+/// 2: 0, 3 3: 1, 2 4: 1, 3 5: 2, 3 of the tetrahedron.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_triangle_hit {
+    /// index of the triangle
+    pub triangle: u32,
+    pub body: vox_body,
+    pub tet: u32,
+    /// bit k: the triangle meets edge k, an end of it included
+    pub edges: u32,
+    /// when the triangle first meets the tetrahedron; 0 if it does at first. The double nearest to the true time.
+    pub t: f64,
+    /// where it first meets edge k, from 0 at the end with the lower vertex index to 1: the same for all tetrahedra
+    /// that share the edge; 0 for edges that it does not meet
+    pub s: [f64; 6],
 }
 
 /// A point of a cost curve.
@@ -2099,6 +2118,35 @@ extern "C" {
         capacity: u64,
         out_count: *mut u64,
     ) -> vox_result;
+    /// Finds the closest points of segments and all surfaces, e.g. of a capsule's axis: it touches where the distance
+    /// is less than its radius. out_hits[i] is for the closed segment from from[i] to to[i], as for a point: `position`
+    /// is the point of the surface that is closest to the segment. If the segment meets the surface, which is exact,
+    /// the distance is 0. `inside` and the sign say where from[i] is: put the tip of a tool there, and ask
+    /// vox_locator_find_closest how deep it is. Segments that are close together should follow each other. Errors: as
+    /// vox_locator_find_closest, and INVALID_ARGUMENT (arrays of different lengths).
+    pub fn vox_locator_find_closest_to_segments(
+        locator: *const vox_locator,
+        from: *const vox_positions,
+        to: *const vox_positions,
+        desc: *const vox_query_desc,
+        out_hits: *mut vox_closest_hit,
+    ) -> vox_result;
+    /// Finds the tetrahedra that triangles meet, sorted by (triangle, body, t, tet): for a cut, in order along the
+    /// motion. Points 3 i, 3 i + 1 and 3 i + 2 are the corners of triangle i, which may be a segment, e.g. a needle or
+    /// the edge of a blade, or a point. With `to`, each corner moves on a line and steadily, from its place in `from`,
+    /// where t is 0, to `to`, where t is 1. A hit is then a tetrahedron that the triangle meets at any time. Without, t
+    /// is 0. Which tetrahedra and edges a triangle meets is exact, touching included, also for tetrahedra without
+    /// volume; s is rounded. Errors: also INVALID_ARGUMENT (a count that is no multiple of 3; arrays of different
+    /// lengths).
+    pub fn vox_locator_find_triangle_hits(
+        locator: *const vox_locator,
+        from: *const vox_positions,
+        to: *const vox_positions,
+        desc: *const vox_query_desc,
+        hits: *mut vox_triangle_hit,
+        capacity: u64,
+        out_count: *mut u64,
+    ) -> vox_result;
 }
 
 #[rustfmt::skip]
@@ -2534,6 +2582,8 @@ layouts! {
         side: [16, 16], face: [20, 20], t: [32, 32], weights: [40, 40] }
     vox_track_piece: size [40, 40], alignment [8, 8], { segment: [0, 0], body: [4, 4], tet: [8, 8], facet_in: [12, 12],
         facet_out: [16, 16], reserved: [20, 20], t_in: [24, 24], t_out: [32, 32] }
+    vox_triangle_hit: size [72, 72], alignment [8, 8], { triangle: [0, 0], body: [4, 4], tet: [8, 8], edges: [12, 12],
+        t: [16, 16], s: [24, 24] }
     vox_cost_sample: size [16, 16], alignment [8, 8], { cell_size: [0, 0], cost: [8, 8] }
     vox_cost_term: size [24, 24], alignment [8, 8], { name: [0, 0], count: [8, 8], cost: [16, 16] }
     vox_cell_size_rule: size [24, 24], alignment [8, 8], { name: [0, 0], cell_size: [8, 8], cost: [16, 16] }

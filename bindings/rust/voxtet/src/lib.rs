@@ -41,6 +41,8 @@ pub type Constraint = sys::vox_constraint;
 pub type Location = sys::vox_location;
 /// The part of a segment that lies in one tetrahedron; its facets are [`NONE`] where it begins or ends within.
 pub type TrackPiece = sys::vox_track_piece;
+/// A tetrahedron that a triangle meets, with its edges that the triangle cuts.
+pub type TriangleHit = sys::vox_triangle_hit;
 /// A tetrahedron that contains a point.
 pub type PointHit = sys::vox_point_hit;
 /// The closest point of a surface, with a normal and a sign.

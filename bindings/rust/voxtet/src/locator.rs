@@ -5,7 +5,7 @@ use voxtet_sys as sys;
 use crate::error::{check, sized};
 use crate::grid::positions_to_c;
 use crate::options::Scalar;
-use crate::{Body, BoxHit, ClosestHit, Grid, Location, PointHit, RayHit, Result, TrackPiece};
+use crate::{Body, BoxHit, ClosestHit, Grid, Location, PointHit, RayHit, Result, TrackPiece, TriangleHit};
 
 /// Which meshes answer, and how far to look. The default: all, at any distance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -18,7 +18,7 @@ pub struct QueryOptions {
     pub mask: u64,
     /// Not this mesh.
     pub excluded: Option<Body>,
-    /// For [`Locator::locate`] and [`Locator::find_closest`], no further than this; 0: any distance.
+    /// For the functions for closest points and [`Locator::locate`], no further than this; 0: any distance.
     pub max_distance: f64,
 }
 
@@ -151,6 +151,35 @@ impl Locator {
         let (from, to, desc) = (positions_to_c(from), positions_to_c(to), options.to_c());
         collect(64, |pieces, capacity, count| unsafe {
             sys::vox_locator_find_tracks(self.0, &from, &to, &desc, pieces, capacity, count)
+        })
+    }
+
+    /// The closest points of segments and all surfaces; `body` is 0 where there is none, and the distance 0 where a
+    /// segment meets a surface.
+    pub fn find_closest_to_segments<T: Scalar>(
+        &self,
+        from: &[[T; 3]],
+        to: &[[T; 3]],
+        options: QueryOptions,
+    ) -> Result<Vec<ClosestHit>> {
+        let (begins, ends, desc) = (positions_to_c(from), positions_to_c(to), options.to_c());
+        each(from.len(), |out| unsafe {
+            sys::vox_locator_find_closest_to_segments(self.0, &begins, &ends, &desc, out)
+        })
+    }
+
+    /// The tetrahedra that triangles meet, each of three corners, which move to those in `to`; sorted by
+    /// (triangle, body, t).
+    pub fn find_triangle_hits<T: Scalar>(
+        &self,
+        from: &[[T; 3]],
+        to: Option<&[[T; 3]]>,
+        options: QueryOptions,
+    ) -> Result<Vec<TriangleHit>> {
+        let (from, to, desc) = (positions_to_c(from), to.map(positions_to_c), options.to_c());
+        let to = to.as_ref().map_or(std::ptr::null(), |to| to as *const _);
+        collect(64, |hits, capacity, count| unsafe {
+            sys::vox_locator_find_triangle_hits(self.0, &from, to, &desc, hits, capacity, count)
         })
     }
 

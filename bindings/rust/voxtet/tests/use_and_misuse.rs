@@ -349,6 +349,13 @@ fn locators() {
     let pieces = locator.find_tracks(&from, &to, QueryOptions { excluded: Some(b), ..all }).unwrap();
     assert!(pieces.len() > 2 && pieces.windows(2).all(|next| next[0].t_out == next[1].t_in));
     assert_eq!(code(locator.find_tracks(&from, &to[..1], all)), ErrorCode::InvalidArgument);
+    let axis = locator.find_closest_to_segments(&from, &to, all).unwrap();
+    assert!(axis[0].distance == 0.0 && axis[0].body != 0 && axis[1].distance > 0.0);
+    let blade = [from[0], to[0], to[0]];
+    let cut = locator.find_triangle_hits(&blade, None, all).unwrap();
+    assert!(cut.len() > 2 && cut.iter().all(|hit| hit.t == 0.0));
+    assert!(locator.find_triangle_hits(&[from[0]; 3], Some(&blade), all).unwrap().iter().all(|hit| hit.t > 0.0));
+    assert_eq!(code(locator.find_triangle_hits(&from, None, all)), ErrorCode::InvalidArgument);
     assert_eq!(locator.find_closest(&from[..1], all).unwrap()[0].distance, 1.0);
     let near = QueryOptions { max_distance: 0.5, ..all };
     assert_eq!(locator.find_closest(&from[..1], near).unwrap()[0].body, 0);
