@@ -57,8 +57,8 @@ private:
     void find_consistent(const depth::Scene& scene, std::size_t pair, Worker& worker);
 
     // The places of penetrations to find, pair after pair, each in the order of vertices; and the first of
-    // each pair in this list.
-    Array<std::uint32_t> places_, pairs_;
+    // each pair, and of each body_b, in this list.
+    Array<std::uint32_t> places_, pairs_, first_of_b_;
     Array<std::uint32_t> queue_; // for find_consistent_depths(), as long
     PerWorker<Worker> workers_;
     depth::Fallback fallback_;
