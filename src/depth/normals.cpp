@@ -32,6 +32,7 @@ void Normals::begin(const Solid& solid) {
         if (faces_.size() < triangles) faces_.resize(triangles);
         if (asked_.size() < triangles) asked_.resize(triangles);
         if (rings_.size() < vertices) rings_.resize(vertices);
+        ring_faces_.reserve(3 * triangles);
         known_.resize(std::max(triangles, vertices), 0);
         return;
     }
@@ -54,7 +55,7 @@ std::uint32_t Normals::add_face(std::uint32_t triangle) {
 }
 
 void Normals::prepare(std::span<const std::uint32_t> triangles) {
-    if (!known_.empty()) return prepare_few(triangles);
+    if (has_few()) return prepare_few(triangles);
     if (faces_.size() > most_faces) begin(solid_);
     const std::size_t first_face = faces_.size(), first_asked = asked_.size();
     for (const std::uint32_t triangle : triangles) {
@@ -65,7 +66,8 @@ void Normals::prepare(std::span<const std::uint32_t> triangles) {
     }
     if (first_asked == asked_.size()) return;
     list_rings(first_asked);
-    for (std::size_t i = first_face; i < faces_.size(); ++i) compute_face(faces_[i].triangle, faces_[i]);
+    for (std::size_t i = first_face; i < faces_.size(); ++i)
+        compute_face(solid_.topology->triangles[faces_[i].triangle], faces_[i]);
     for (std::size_t i = first_asked; i < asked_.size(); ++i) {
         Asked& asked = asked_[i];
         const Face& face = faces_[asked.face];
@@ -118,8 +120,12 @@ void Normals::prepare_few(std::span<const std::uint32_t> triangles) {
                 const auto first = static_cast<std::uint32_t>(ring_faces_.size());
                 for (const std::uint32_t t : topology.ring_of(v)) {
                     ring_faces_.push_back(t);
-                    if (!(known_[t] & known_face)) compute_face(t, faces_[t]);
+                    if (known_[t] & known_face) continue;
                     known_[t] |= known_face;
+                    const Triangle& of = topology.triangles[t];
+                    faces_[t].triangle = t;
+                    std::copy_n(of.v, 3, faces_[t].v);
+                    compute_face(of, faces_[t]);
                 }
                 ring = {first, static_cast<std::uint32_t>(ring_faces_.size()), false, false, {}};
             }
@@ -128,11 +134,8 @@ void Normals::prepare_few(std::span<const std::uint32_t> triangles) {
     }
 }
 
-// The normal of a triangle, out of its tetrahedron, and its weights at the corners.
-void Normals::compute_face(std::uint32_t triangle, Face& face) const {
-    const Triangle& of = solid_.topology->triangles[triangle];
-    std::copy_n(of.v, 3, face.v);
-    face.triangle = triangle;
+// Computes the normal of a triangle, out of its tetrahedron, and its weights at the corners.
+void Normals::compute_face(const Triangle& of, Face& face) const {
     const std::uint32_t vertices[4] = {of.v[0], of.v[1], of.v[2], of.apex};
     Vec3d at[4];
     for (std::size_t i = 0; i < 4; ++i) at[i] = solid_.at(vertices[i]);
@@ -178,7 +181,7 @@ Vec3d Normals::corner_normal(const Face& asking, std::uint32_t vertex, Ring& rin
 }
 
 std::uint32_t Normals::asked_place(std::uint32_t triangle) const noexcept {
-    if (known_.empty()) return asked_places_[triangle];
+    if (!has_few()) return asked_places_[triangle];
     return known_[triangle] & known_corners ? triangle : PlaceMap::none;
 }
 

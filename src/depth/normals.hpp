@@ -24,6 +24,9 @@ public:
 
     // Call it before the others, for another solid or when positions have changed.
     void begin(const Solid& solid);
+    // True if the solid has so few triangles that none is ever forgotten; they take the same room at any
+    // time.
+    bool has_few() const noexcept { return !known_.empty(); }
 
     // Computes what at() needs of these triangles, unless that is known: for many triangles sooner than one
     // by one. Throws what the memory throws.
@@ -70,14 +73,14 @@ private:
     // many triangles take part.
     static constexpr std::size_t most_faces = 8192;
 
-    // Bodies with up to so many triangles, and vertices, have places for all of them: their numbers. Such bodies are
+    // Solids with up to so many triangles, and vertices, have places for all of them: their numbers. They are
     // mostly surface, and others meet much of it.
     static constexpr std::size_t few = 1024;
     enum Known : std::uint8_t { known_face = 1, known_ring = 2, known_corners = 4 };
 
     std::uint32_t add_face(std::uint32_t triangle);
     void list_rings(std::size_t first_asked);
-    void compute_face(std::uint32_t triangle, Face& face) const;
+    void compute_face(const Triangle& of, Face& face) const;
     std::uint32_t asked_place(std::uint32_t triangle) const noexcept; // or PlaceMap::none
     void prepare_few(std::span<const std::uint32_t> triangles);
     Vec3d corner_normal(const Face& asking, std::uint32_t vertex, Ring& ring) const;

@@ -11,7 +11,8 @@ namespace vox {
 using namespace depth;
 
 DepthStage::DepthStage(std::pmr::memory_resource* memory, SurfaceTrees& trees)
-    : places_(memory), pairs_(memory), first_of_b_(memory), queue_(memory), workers_(memory), fallback_(memory, trees) {}
+    : places_(memory), pairs_(memory), first_of_b_(memory), queue_(memory), workers_(memory),
+      fallback_(memory, trees) {}
 
 void DepthStage::find(std::span<const Body> bodies, std::span<const Topology* const> topologies,
                       std::span<const Hit> hits, bool closest, std::uint64_t closest_budget, Workers* workers,
@@ -19,7 +20,7 @@ void DepthStage::find(std::span<const Body> bodies, std::span<const Topology* co
     const bool none = std::ranges::all_of(bodies, [](const Body& b) { return b.sensor; });
     if (hits.empty() || none) return penetrations.clear();
     Scene scene{bodies, topologies, hits, penetrations};
-    reserve(hits.size());
+    reserve(bodies.size(), hits.size());
     penetrations.begin(bodies, hits);
     list_places(scene);
     scene.places = places_;
@@ -30,8 +31,11 @@ void DepthStage::find(std::span<const Body> bodies, std::span<const Topology* co
     const auto find_pairs = [&](std::size_t begin, std::size_t end, std::uint32_t worker) {
         std::uint32_t last_b = ~0u;
         for (std::size_t i = begin; i < end; ++i) {
+            // What is known of a small body serves all that are inside it. Of a large one, how much room that
+            // took would depend on how the workers share the pairs.
             const std::uint32_t b = scene.hit(places_[pairs_[i]]).body_b;
-            if (b != last_b) workers_[worker].consistent.normals.begin(scene.solid(b));
+            Normals& normals = workers_[worker].consistent.normals;
+            if (b != last_b || !normals.has_few()) normals.begin(scene.solid(b));
             last_b = b;
             find_consistent(scene, i, workers_[worker]);
         }
@@ -55,12 +59,13 @@ void DepthStage::find(std::span<const Body> bodies, std::span<const Topology* co
 }
 
 // There are never more points than contacts, nor more pairs.
-void DepthStage::reserve(std::uint64_t contacts) {
+void DepthStage::reserve(std::size_t bodies, std::uint64_t contacts) {
+    reserve_growing(first_of_b_, bodies + 1);
     for (Array<std::uint32_t>* list : {&places_, &pairs_, &queue_}) reserve_exactly(*list, contacts);
 }
 
 // Penetrations are sorted by body_a, vertex and body_b; here they are sorted by body_b, body_a and vertex, by
-// counting, so that what is known of a body serves all that are inside it.
+// counting.
 void DepthStage::list_places(const Scene& scene) {
     queue_.clear(); // as they are sorted first
     first_of_b_.assign(scene.bodies.size() + 1, 0);

@@ -41,8 +41,9 @@ public:
               std::span<const Hit> hits, bool closest, std::uint64_t closest_budget, Workers* workers,
               Penetrations& penetrations, Counters& counters);
 
-    // Room for so many contacts, but for closest points that are searched. Throws what the memory throws.
-    void reserve(std::uint64_t contacts);
+    // Room for so many bodies and contacts, but for closest points that are searched. Throws what the memory
+    // throws.
+    void reserve(std::size_t bodies, std::uint64_t contacts);
 
 private:
     struct Worker {
