@@ -36,7 +36,7 @@ SIZED_GOALS = [
     Goal("coincident", 5, None, None, None, None),
     Goal("swallowed", 10, None, None, None, None),
 ]
-GOALS = SIZED_GOALS + [
+GOALS = SIZED_GOALS + [Goal("pile", 2, None, None, None, None)] + [
     Goal(f"{body}-{kind}", *goal, None)
     for body in ("bunny", "cow", "armadillo")
     for kind, goal in (("light", (1.5, 8, 25, 8)), ("deep", (1.5, 8, 25, 8)), ("self", (1.1, 15, 18, 15)))]

@@ -180,6 +180,58 @@ Scene balls_at_rest(double tets, bool shuffled, double tets_each) {
     return scene;
 }
 
+// Centres of unit balls that fell into a shaft and came to rest about `distance` apart: all move down, and
+// those too close or outside are pushed apart and back, again and again.
+std::vector<Vec3> settled(std::size_t count, double distance, std::uint64_t seed) {
+    const double half = 3.2,
+                 height = 0.26 * static_cast<double>(count); // of the shaft, and what they fall from
+    std::vector<Vec3> centres(count);
+    for (Vec3& c : centres)
+        c = {half * random_symmetric(&seed), half * random_symmetric(&seed), height * random_unit(&seed)};
+    for (int round = 0; round < 400; ++round) {
+        for (Vec3& c : centres) c.z -= 0.05;
+        for (std::size_t i = 0; i < count; ++i)
+            for (std::size_t j = 0; j < i; ++j) {
+                Vec3 &a = centres[i], &b = centres[j];
+                const Vec3 d{a.x - b.x, a.y - b.y, a.z - b.z};
+                const double square = d.x * d.x + d.y * d.y + d.z * d.z;
+                if (square >= distance * distance || square == 0) continue;
+                const double push = 0.5 * (distance / std::sqrt(square) - 1);
+                a = {a.x + push * d.x, a.y + push * d.y, a.z + push * d.z};
+                b = {b.x - push * d.x, b.y - push * d.y, b.z - push * d.z};
+            }
+        for (Vec3& c : centres)
+            c = {std::clamp(c.x, -half, half), std::clamp(c.y, -half, half), std::max(c.z, 0.0)};
+    }
+    return centres;
+}
+
+// A pile of a game: 300 balls of 500 tetrahedra at random angles, which press into each other until a fifth
+// of all vertices are inside another one. Each keeps turning, and waves run through it.
+Scene pile(bool shuffled) {
+    constexpr std::size_t count = 300;
+    constexpr double tets_each = 500, distance = 1.78, turn = 0.02; // radii, radians a frame
+    const double radius = ball_radius(tets_each);
+    const std::vector<Vec3> centres = settled(count, distance, 17);
+    std::uint64_t random = 19;
+    Scene scene;
+    for (std::size_t i = 0; i < count; ++i) {
+        Solid ball = lattice_ball(tets_each, i);
+        if (shuffled) shuffle(ball, i);
+        const double angle = pi * random_symmetric(&random), tilt = pi * random_symmetric(&random);
+        const Vec3& c = centres[i];
+        const Pose wave = waves(radius, {0, 0, 0}, 0.9 * static_cast<double>(i));
+        add(scene, ball, [=](const Vec3& rest, std::size_t frame) {
+            const Vec3 p = wave(rest, frame);
+            const double a = angle + turn * static_cast<double>(frame);
+            const double x = p.x * std::cos(a) - p.y * std::sin(a), y = p.x * std::sin(a) + p.y * std::cos(a);
+            return Vec3{radius * c.x + x, radius * c.y + y * std::cos(tilt) - p.z * std::sin(tilt),
+                        radius * c.z + y * std::sin(tilt) + p.z * std::cos(tilt)};
+        });
+    }
+    return scene;
+}
+
 // A beam of w * w cubes wound up to a coil of six turns that touch here and there.
 Scene coil(double tets, bool shuffled) {
     const double turns = 6, bend = 3; // radius of the coil in widths
@@ -324,6 +376,7 @@ std::vector<SceneMaker> scene_makers(const std::string& mesh_folder) {
          [](double n, bool s) { return many_balls(n, s, 1000); }},
         {"bodies-1k-rest", "bodies of 1k, light contact, ten of them moving", true,
          [](double n, bool s) { return balls_at_rest(n, s, 1000); }},
+        {"pile", "a pile of 300 bodies of 500", false, [](double, bool s) { return pile(s); }},
         {"overlap-50", "two bodies, 50 % overlap volume", true,
          [](double n, bool s) { return two_balls_by_volume(n, s, 0.5); }},
     };

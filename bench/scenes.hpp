@@ -53,7 +53,7 @@ double mean_edge(std::span<const Body> bodies);
 struct SceneMaker {
     std::string name;
     std::string title;
-    bool sized;                                           // false: the size is that of a file
+    bool sized;                                           // false: it has a size of its own
     std::function<Scene(double tets, bool shuffle)> make; // about `tets` tetrahedra in all
 };
 

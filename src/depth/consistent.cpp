@@ -89,7 +89,6 @@ public:
            std::span<std::uint32_t> queue, ConsistentScratch& scratch, Counts& counts)
         : pair_(pair), hits_(hits), penetrations_(penetrations), waves_(scratch.waves), queue_(queue),
           normals_(scratch.normals), counts_(counts) {
-        normals_.begin(pair_.b);
         waves_.reserve(pair_.vertex_count_a);
         for (const std::uint32_t place : pair_.places) waves_.add(vertex_at(place), unreached, place);
     }

@@ -55,12 +55,12 @@ private:
     Array<Entry> entries_;
 };
 
-// Buffers that find_consistent_depths() keeps from call to call.
+// What find_consistent_depths() keeps from call to call.
 struct ConsistentScratch {
     explicit ConsistentScratch(std::pmr::memory_resource* memory) : waves(memory), normals(memory) {}
 
     WaveTable waves; // empty between calls
-    Normals normals;
+    Normals normals; // of body b: begin() is the caller's, as several bodies may be inside one
 
     auto buffers() { return std::tuple_cat(std::tie(waves.buffer()), normals.buffers()); }
 };

@@ -10,6 +10,8 @@
 #include "base/prefetch.hpp"
 #include "base/vectors.hpp"
 
+#include <algorithm>
+
 namespace vox::depth {
 
 Vec3d facet_normal(const Solid& solid, std::uint32_t tet, int i) {
@@ -23,12 +25,22 @@ Vec3d facet_normal(const Solid& solid, std::uint32_t tet, int i) {
 
 void Normals::begin(const Solid& solid) {
     solid_ = solid;
+    known_.clear();
+    ring_faces_.clear();
+    const std::size_t triangles = solid.topology->triangles.size(), vertices = solid.topology->links.size();
+    if (triangles <= few && vertices <= few) {
+        if (faces_.size() < triangles) faces_.resize(triangles);
+        if (asked_.size() < triangles) asked_.resize(triangles);
+        if (rings_.size() < vertices) rings_.resize(vertices);
+        ring_faces_.reserve(3 * triangles);
+        known_.resize(std::max(triangles, vertices), 0);
+        return;
+    }
     face_places_.clear();
     ring_places_.clear();
     asked_places_.clear();
     faces_.clear();
     rings_.clear();
-    ring_faces_.clear();
     asked_.clear();
 }
 
@@ -43,6 +55,7 @@ std::uint32_t Normals::add_face(std::uint32_t triangle) {
 }
 
 void Normals::prepare(std::span<const std::uint32_t> triangles) {
+    if (has_few()) return prepare_few(triangles);
     if (faces_.size() > most_faces) begin(solid_);
     const std::size_t first_face = faces_.size(), first_asked = asked_.size();
     for (const std::uint32_t triangle : triangles) {
@@ -53,7 +66,8 @@ void Normals::prepare(std::span<const std::uint32_t> triangles) {
     }
     if (first_asked == asked_.size()) return;
     list_rings(first_asked);
-    compute_faces(first_face);
+    for (std::size_t i = first_face; i < faces_.size(); ++i)
+        compute_face(solid_.topology->triangles[faces_[i].triangle], faces_[i]);
     for (std::size_t i = first_asked; i < asked_.size(); ++i) {
         Asked& asked = asked_[i];
         const Face& face = faces_[asked.face];
@@ -90,24 +104,53 @@ void Normals::list_rings(std::size_t first_asked) {
         ring_faces_[i] = add_face(ring_faces_[i]);
 }
 
-// Computes faces from `first` on: normals out of the tetrahedra, and their weights at the corners.
-void Normals::compute_faces(std::size_t first) {
-    for (; first < faces_.size(); ++first) {
-        Face& face = faces_[first];
-        const Vec3d a = solid_.at(face.v[0]), b = solid_.at(face.v[1]), c = solid_.at(face.v[2]);
-        const Vec3d apex = solid_.at(solid_.topology->triangles[face.triangle & ~Face::flat_bit].apex);
-        const Vec3d ab = b - a, bc = c - b, ca = a - c, normal = cross(ab, c - a);
-        const double inside = dot(normal, apex - a);
-        const Vec3d unit = normalised(normal);
-        face.normal = inside > 0 ? -1.0 * unit : unit;
-        if (inside == 0) face.triangle |= Face::flat_bit;
-        // `area`, doubled, is sin(angle) * e * f at each corner, with the lengths e and f of its edges.
-        const double area = length(normal), lab = dot(ab, ab), lbc = dot(bc, bc), lca = dot(ca, ca);
-        const auto weight = [area](double e, double f) { return e > 0 && f > 0 ? area / e / f : 0.0; };
-        face.weight[0] = weight(lab, lca);
-        face.weight[1] = weight(lab, lbc);
-        face.weight[2] = weight(lbc, lca);
+// Prepares triangles of a body that has places for all of them.
+void Normals::prepare_few(std::span<const std::uint32_t> triangles) {
+    const Topology& topology = *solid_.topology;
+    for (const std::uint32_t triangle : triangles) {
+        if (known_[triangle] & known_corners) continue;
+        known_[triangle] |= known_corners;
+        Asked& asked = asked_[triangle];
+        asked.face = triangle;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::uint32_t v = topology.triangles[triangle].v[c];
+            Ring& ring = rings_[v];
+            if (!(known_[v] & known_ring)) {
+                known_[v] |= known_ring;
+                const auto first = static_cast<std::uint32_t>(ring_faces_.size());
+                for (const std::uint32_t t : topology.ring_of(v)) {
+                    ring_faces_.push_back(t);
+                    if (known_[t] & known_face) continue;
+                    known_[t] |= known_face;
+                    const Triangle& of = topology.triangles[t];
+                    faces_[t].triangle = t;
+                    std::copy_n(of.v, 3, faces_[t].v);
+                    compute_face(of, faces_[t]);
+                }
+                ring = {first, static_cast<std::uint32_t>(ring_faces_.size()), false, false, {}};
+            }
+            asked.normal[c] = corner_normal(faces_[triangle], v, ring);
+        }
     }
+}
+
+// Computes the normal of a triangle, out of its tetrahedron, and its weights at the corners.
+void Normals::compute_face(const Triangle& of, Face& face) const {
+    const std::uint32_t vertices[4] = {of.v[0], of.v[1], of.v[2], of.apex};
+    Vec3d at[4];
+    for (std::size_t i = 0; i < 4; ++i) at[i] = solid_.at(vertices[i]);
+    const auto& [a, b, c, apex] = at;
+    const Vec3d ab = b - a, bc = c - b, ca = a - c, normal = cross(ab, c - a);
+    const double inside = dot(normal, apex - a);
+    const Vec3d unit = normalised(normal);
+    face.normal = inside > 0 ? -1.0 * unit : unit;
+    if (inside == 0) face.triangle |= Face::flat_bit;
+    // `area`, doubled, is sin(angle) * e * f at each corner, with the lengths e and f of its edges.
+    const double area = length(normal), lab = dot(ab, ab), lbc = dot(bc, bc), lca = dot(ca, ca);
+    const auto weight = [area](double e, double f) { return e > 0 && f > 0 ? area / e / f : 0.0; };
+    face.weight[0] = weight(lab, lca);
+    face.weight[1] = weight(lab, lbc);
+    face.weight[2] = weight(lbc, lca);
 }
 
 // The normal at a corner of the triangle `asking`.
@@ -137,11 +180,16 @@ Vec3d Normals::corner_normal(const Face& asking, std::uint32_t vertex, Ring& rin
     return mean;
 }
 
+std::uint32_t Normals::asked_place(std::uint32_t triangle) const noexcept {
+    if (!has_few()) return asked_places_[triangle];
+    return known_[triangle] & known_corners ? triangle : PlaceMap::none;
+}
+
 Vec3d Normals::at(const SurfacePoint& point, const Vec3d& outward) {
-    std::uint32_t place = asked_places_[point.triangle];
+    std::uint32_t place = asked_place(point.triangle);
     if (place == PlaceMap::none) {
         prepare({&point.triangle, 1});
-        place = asked_places_[point.triangle];
+        place = asked_place(point.triangle);
     }
     const Asked& asked = asked_[place];
     const Vec3d normal = normalised(point.weight[0] * asked.normal[0] + point.weight[1] * asked.normal[1] +

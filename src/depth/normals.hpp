@@ -20,10 +20,13 @@ class Normals {
 public:
     explicit Normals(std::pmr::memory_resource* memory)
         : face_places_(memory), ring_places_(memory), asked_places_(memory), faces_(memory), rings_(memory),
-          ring_faces_(memory), asked_(memory) {}
+          ring_faces_(memory), asked_(memory), known_(memory) {}
 
     // Call it before the others, for another solid or when positions have changed.
     void begin(const Solid& solid);
+    // True if the solid has so few triangles that none is ever forgotten; they take the same room at any
+    // time.
+    bool has_few() const noexcept { return !known_.empty(); }
 
     // Computes what at() needs of these triangles, unless that is known: for many triangles sooner than one
     // by one. Throws what the memory throws.
@@ -35,7 +38,7 @@ public:
 
     auto buffers() {
         return std::tie(face_places_, face_places_.tree(), ring_places_, ring_places_.tree(), asked_places_,
-                        asked_places_.tree(), faces_, rings_, ring_faces_, asked_);
+                        asked_places_.tree(), faces_, rings_, ring_faces_, asked_, known_);
     }
 
 private:
@@ -70,9 +73,16 @@ private:
     // many triangles take part.
     static constexpr std::size_t most_faces = 8192;
 
+    // Solids with up to so many triangles, and vertices, have places for all of them: their numbers. They are
+    // mostly surface, and others meet much of it.
+    static constexpr std::size_t few = 1024;
+    enum Known : std::uint8_t { known_face = 1, known_ring = 2, known_corners = 4 };
+
     std::uint32_t add_face(std::uint32_t triangle);
     void list_rings(std::size_t first_asked);
-    void compute_faces(std::size_t first);
+    void compute_face(const Triangle& of, Face& face) const;
+    std::uint32_t asked_place(std::uint32_t triangle) const noexcept; // or PlaceMap::none
+    void prepare_few(std::span<const std::uint32_t> triangles);
     Vec3d corner_normal(const Face& asking, std::uint32_t vertex, Ring& ring) const;
 
     Solid solid_{};
@@ -81,6 +91,7 @@ private:
     Array<Ring> rings_;
     Array<std::uint32_t> ring_faces_;
     Array<Asked> asked_;
+    Array<std::uint8_t> known_; // of a body of few triangles: what is known of each, and of each vertex
 };
 
 } // namespace vox::depth

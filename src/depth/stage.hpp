@@ -41,8 +41,9 @@ public:
               std::span<const Hit> hits, bool closest, std::uint64_t closest_budget, Workers* workers,
               Penetrations& penetrations, Counters& counters);
 
-    // Room for so many contacts, but for closest points that are searched. Throws what the memory throws.
-    void reserve(std::uint64_t contacts);
+    // Room for so many bodies and contacts, but for closest points that are searched. Throws what the memory
+    // throws.
+    void reserve(std::size_t bodies, std::uint64_t contacts);
 
 private:
     struct Worker {
@@ -57,8 +58,8 @@ private:
     void find_consistent(const depth::Scene& scene, std::size_t pair, Worker& worker);
 
     // The places of penetrations to find, pair after pair, each in the order of vertices; and the first of
-    // each pair in this list.
-    Array<std::uint32_t> places_, pairs_;
+    // each pair, and of each body_b, in this list.
+    Array<std::uint32_t> places_, pairs_, first_of_b_;
     Array<std::uint32_t> queue_; // for find_consistent_depths(), as long
     PerWorker<Worker> workers_;
     depth::Fallback fallback_;

@@ -49,7 +49,7 @@ void ConstraintStage::clear(bool all) noexcept {
 
 void ConstraintStage::reserve(std::uint32_t body_count, std::uint64_t contact_count) {
     penetrations_.reserve(contact_count);
-    depth().reserve(contact_count);
+    depth().reserve(body_count, contact_count);
     constraints_.reserve(body_count, static_cast<std::size_t>(contact_count));
 }
 
