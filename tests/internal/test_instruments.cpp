@@ -240,7 +240,7 @@ void check_edges(const std::vector<vox_triangle_hit>& hits, const QueryDefinitio
 
 void check_proved(const Tally& tally) {
     ck_assert_uint_le(tally.maybe_near, (tally.later + tally.apart) / 50);
-    ck_assert_uint_le(tally.nearly, tally.later / 10);
+    ck_assert_uint_le(tally.nearly, tally.later / 5); // segments meet edges for one moment only
 }
 
 Tally check_triangles(const QueryDefinition& mesh, const std::vector<Motion>& motions, bool moving) {
