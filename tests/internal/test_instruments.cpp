@@ -333,17 +333,17 @@ std::size_t usual_count(std::uint64_t usual) { return std::size_t(volume_from("V
 START_TEST(still_triangles) {
     Random random{1};
     const QueryDefinition cubes = with_flat_tets(definition_of(kuhn_block(2, 2, 1, {0, 0, 0}, 1)), random);
-    const Tally tally = check_triangles(cubes, motions_in(cubes, random, usual_count(36), 1), false);
-    ck_assert_uint_gt(tally.met, usual_count(36));
-    ck_assert_uint_gt(tally.apart, usual_count(36));
+    const Tally tally = check_triangles(cubes, motions_in(cubes, random, usual_count(60), 1), false);
+    ck_assert_uint_gt(tally.met, usual_count(60));
+    ck_assert_uint_gt(tally.apart, usual_count(60));
 }
 END_TEST
 
 START_TEST(moving_triangles) {
     Random random{2};
     const QueryDefinition cubes = with_flat_tets(definition_of(kuhn_block(2, 1, 1, {0, 0, 0}, 1)), random);
-    const Tally tally = check_triangles(cubes, motions_in(cubes, random, usual_count(36), 1), true);
-    ck_assert_uint_gt(tally.later, usual_count(36));
+    const Tally tally = check_triangles(cubes, motions_in(cubes, random, usual_count(60), 1), true);
+    ck_assert_uint_gt(tally.later, usual_count(60));
     check_proved(tally);
 }
 END_TEST
