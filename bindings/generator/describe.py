@@ -17,7 +17,7 @@ NUMBERS = {"uint8_t": 1, "char": 1, "int32_t": 4, "uint32_t": 4, "int64_t": 8, "
 
 # 64-bit numbers all of whose bits may be in use, and those that are counts, sizes, indices or times, below 2^53.
 BITS = re.compile(r"(^|_)(hash|mask|reserved|category|user_data(_[ab])?|seed)$")
-COUNT = re.compile(r"([^s]s|(^|_)(began|begin|budget|capacity|cell|compared|contact|count|culled|end|ended|epoch|filtered|first|order|"
+COUNT = re.compile(r"([^s]s|(^|_)(left_out|began|begin|budget|capacity|cell|compared|contact|count|culled|end|ended|epoch|filtered|first|order|"
                    r"persisted|range|round|size|softened|stride|value)|_in_[ab])$")
 # Pointers that are handed back and that nobody looks behind.
 OPAQUE = re.compile(r"(^|_)(user|context|handle)$")

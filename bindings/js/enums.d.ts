@@ -329,6 +329,8 @@ export declare const MAX_SURFACE_TETS: 357913941;
 export declare const MAX_CONTACTS: 4294967295;
 /** of a grid */
 export declare const MAX_WORKERS: 256;
+/** vox_grid_desc.max_constraints_per_pair */
+export declare const MAX_CONSTRAINTS_PER_PAIR: 256;
 /** names no body */
 export declare const NULL_BODY: 0;
 /** vox_filter.self_rings */

@@ -9,6 +9,7 @@ export const MAX_TETS = 2147483647;
 export const MAX_SURFACE_TETS = 357913941;
 export const MAX_CONTACTS = 4294967295;
 export const MAX_WORKERS = 256;
+export const MAX_CONSTRAINTS_PER_PAIR = 256;
 export const NULL_BODY = 0;
 export const MAX_RINGS = 8;
 export const STENCIL_CAPACITY = 5;

@@ -9,6 +9,11 @@ export interface GridDesc {
   flags: number;
   /** threads that share a step: up to VOX_MAX_WORKERS, or VOX_ALL_CORES; 0: one */
   workerCount: number;
+  /**
+   * Most constraints of a pair, up to VOX_MAX_CONSTRAINTS_PER_PAIR; 0: all. The deepest stays, then whichever is
+   * farthest from all that stay; PROXIMITY only if no others are left. Pairs and contacts do not change.
+   */
+  maxConstraintsPerPair: number;
   /** edge length of a cell; 0: the library chooses it in every step. Never changes results */
   cellSize: number;
   /** see vox_grid_set_margin */
@@ -153,6 +158,8 @@ export interface Constraint {
    * the same vertex and body_b, or the same edge and face
    */
   previous: number;
+  /** how many more its pair would have without max_constraints_per_pair */
+  leftOut: number;
 }
 
 /** Columns of Constraint: of an array field, its elements one after the other. */
@@ -175,6 +182,7 @@ export interface ConstraintColumns {
   readonly userDataB: BigUint64Array;
   readonly pair: Uint32Array;
   readonly previous: Uint32Array;
+  readonly leftOut: Float64Array;
 }
 
 /** Which constraints to find. By default all fields are 0: all constraints, with consistent depth. */

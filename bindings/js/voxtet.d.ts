@@ -131,7 +131,7 @@ export type Constraints = Records<Constraint, ConstraintColumns> & { readonly pa
 // ---- grids ----
 
 export interface GridOptions
-  extends Partial<Pick<GridDesc, "cellSize" | "margin" | "byteBudget">> {
+  extends Partial<Pick<GridDesc, "cellSize" | "margin" | "byteBudget" | "maxConstraintsPerPair">> {
   /** The paper's engine, in place of the fast one. */
   reference?: ReferenceOptions;
   /** GridFlags, combined with |; default none. */
@@ -318,6 +318,8 @@ export interface Grid extends Owned {
   clear(): void;
   /** Takes memory for that many meshes and contacts in advance. */
   reserve(meshes: number, contacts: number): void;
+  /** Makes now what steps make of a mesh once, when they first need it. */
+  prepare(): void;
   /** Edge length of a cell; 0: the library chooses. */
   cellSize: number;
   /** Vertices outside a mesh, but within this distance, have constraints of ConstraintKind.PROXIMITY. May change in any

@@ -163,6 +163,7 @@ static inline vox_positions vox_double_positions(const double* xyz, uint64_t cou
 #define VOX_MAX_SURFACE_TETS 357913941u /* in a mesh whose surface is needed: constraints, edges, margin, queries */
 #define VOX_MAX_CONTACTS 4294967295u    /* in a step */
 #define VOX_MAX_WORKERS 256u            /* of a grid */
+#define VOX_MAX_CONSTRAINTS_PER_PAIR 256u /* vox_grid_desc.max_constraints_per_pair */
 
 /* A set of bodies, and the settings for finding their contacts. */
 typedef struct vox_grid vox_grid;
@@ -180,7 +181,9 @@ typedef struct vox_grid_desc {
     uint32_t struct_size;
     uint32_t flags;        /* vox_grid_flags, combined with | */
     uint32_t worker_count; /* threads that share a step: up to VOX_MAX_WORKERS, or VOX_ALL_CORES; 0: one */
-    uint32_t reserved;     /* 0 */
+    /* Most constraints of a pair, up to VOX_MAX_CONSTRAINTS_PER_PAIR; 0: all. The deepest stays, then whichever is
+     * farthest from all that stay; PROXIMITY only if no others are left. Pairs and contacts do not change. */
+    uint32_t max_constraints_per_pair;
     double cell_size;      /* edge length of a cell; 0: the library chooses it in every step. Never changes results */
     double margin;         /* see vox_grid_set_margin */
     uint64_t byte_budget;  /* most bytes the grid may hold; 0: 4 GiB; UINT64_MAX: no limit */
@@ -318,7 +321,7 @@ static inline vox_result vox_mesh_bind_doubles(vox_grid* grid, vox_body body, co
 /* Finds all contacts of the bodies as they are now, and whatever the flags ask for. This replaces the results of the
  * previous step. If the step fails there are no results, and the grid stays usable. A body that has not moved costs
  * little more than reading its positions. In the steady state a step allocates no memory; but the first search for a
- * closest point in a body makes that body's tree, whenever that is, and vox_grid_reserve does not.
+ * closest point in a body makes that body's tree, unless vox_grid_prepare did.
  * Errors: INVALID_STATE (a mesh without positions), NON_FINITE, LIMIT, INVALID_ARGUMENT (doubles read as floats; a
  * task system that broke its rules), BUDGET, OUT_OF_MEMORY. vox_grid_get_failure names the body. */
 VOX_API vox_result vox_grid_step(vox_grid* grid);
@@ -460,7 +463,7 @@ typedef struct vox_constraint {
     uint32_t pair;     /* index of its pair in vox_grid_get_pairs */
     uint32_t previous; /* index of the same constraint in the list of the step before, for a warm start; VOX_NONE if
                           it is new. Same means the same vertex and body_b, or the same edge and face */
-    uint64_t reserved; /* 0 */
+    uint64_t left_out; /* how many more its pair would have without max_constraints_per_pair */
 } vox_constraint;
 
 /* The gap when the two bodies have these positions: packed doubles x y z, transformed. positions_b is not used for a
@@ -670,6 +673,12 @@ VOX_API vox_result vox_grid_clear(vox_grid* grid);
  * Errors: LIMIT, BUDGET, OUT_OF_MEMORY. */
 VOX_API vox_result vox_grid_reserve(vox_grid* grid, uint32_t body_count, uint64_t contact_count);
 
+/* Makes now what steps make of a mesh once, when they first need it: topology, rings, tiles of its surface and the tree
+ * over that, as far as the flags, the margin and its filter ask for them. Meshes without positions are passed over.
+ * It takes no room for results, and leaves the results of the last step as they are.
+ * Errors: NON_FINITE, LIMIT, INVALID_ARGUMENT (doubles read as floats), BUDGET, OUT_OF_MEMORY. */
+VOX_EXPERIMENTAL vox_result vox_grid_prepare(vox_grid* grid);
+
 /* Sets vox_grid_desc.cell_size for the following steps. Errors: INVALID_ARGUMENT (negative, infinite, NaN). */
 VOX_API vox_result vox_grid_set_cell_size(vox_grid* grid, double cell_size);
 
@@ -807,8 +816,8 @@ VOX_API vox_result vox_mesh_get_tets(const vox_grid* grid, vox_body body, VOX_OP
 VOX_API vox_result vox_grid_save(const vox_grid* grid, VOX_OPTIONAL void* bytes, uint64_t capacity, uint64_t* out_size);
 
 /* Creates a grid from a snapshot. Ids name the same bodies, and steps give the same results. Meshes own their
- * positions; map or bind positions to move them. desc supplies what snapshots do not contain; its flags and cell_size
- * are ignored. The bytes need not be trusted. The caller owns *out_grid and releases it with vox_grid_destroy.
+ * positions; map or bind positions to move them. desc supplies what snapshots do not contain; its flags, cell_size
+ * and max_constraints_per_pair are ignored. The bytes need not be trusted. The caller owns *out_grid and releases it with vox_grid_destroy.
  * Errors: FORMAT (names the place), UNSUPPORTED (a later version), INVALID_ARGUMENT, LIMIT, BUDGET, OUT_OF_MEMORY. */
 VOX_API vox_result vox_grid_load(const void* bytes, uint64_t size, VOX_OPTIONAL const vox_grid_desc* desc,
                                  vox_grid** out_grid);

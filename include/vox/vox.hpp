@@ -582,6 +582,8 @@ public:
     void reserve(std::uint32_t mesh_count, std::uint64_t contact_count) {
         detail::check(vox_grid_reserve(get(), mesh_count, contact_count));
     }
+    // vox_grid_prepare
+    void prepare() { detail::check(vox_grid_prepare(get())); }
     // vox_grid_set_cell_size
     void set_cell_size(double size) { detail::check(vox_grid_set_cell_size(get(), size)); }
     // vox_grid_get_info

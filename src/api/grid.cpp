@@ -96,6 +96,10 @@ vox_result vox_grid_reserve(vox_grid* grid, uint32_t mesh_count, uint64_t contac
     return border(grid, "grid", [&] { grid->reserve(mesh_count, contact_count); });
 }
 
+vox_result vox_grid_prepare(vox_grid* grid) {
+    return border(grid, "grid", [&] { grid->prepare_meshes(); });
+}
+
 vox_result vox_grid_set_cell_size(vox_grid* grid, double cell_size) {
     return border(grid, "grid", [&] { grid->set_cell_size(cell_size); });
 }

@@ -49,6 +49,7 @@ struct Counters {
     std::uint64_t impacts = 0;             // 0 without previous positions (vox_mesh_bind_previous_positions)
     std::uint64_t shape_contacts = 0;      // 0 without shapes, as is the next one
     std::uint64_t carried_shape_contacts = 0; // part of `shape_contacts` carried over
+    std::uint64_t constraints_left_out = 0;   // by max_constraints_per_pair, when they were found last
     std::uint64_t face_candidates = 0;        // vertices and faces of which a distance or a time was computed
 };
 
@@ -115,6 +116,7 @@ inline constexpr NamedCounter named_counters[] = {
     {"proximities", &Counters::proximities},
     {"carried_proximities", &Counters::carried_proximities},
     {"constraints", &Counters::constraints},
+    {"constraints_left_out", &Counters::constraints_left_out},
     {"passages", &Counters::impacts},
     {"face_candidates", &Counters::face_candidates},
     {"shape_contacts", &Counters::shape_contacts},

@@ -14,6 +14,7 @@
 #include "base/simd.hpp"
 
 #include <limits>
+#include <utility>
 
 #undef VOX_SOURCE
 #define VOX_SOURCE "depth/near.cpp"
@@ -149,11 +150,17 @@ HWY_INLINE float VisitLeaf(const TreeLeaf& leaf, const std::uint32_t* triangles,
     return reach;
 }
 
-// Appends the numbers of the children whose bits are set. Writes up to tree_width numbers.
-HWY_INLINE std::size_t Append(unsigned near, std::uint32_t first, std::uint32_t* out) {
+// A leaf or node, and a lower bound of the squared distance to it.
+struct Far {
+    std::uint32_t number;
+    float squared;
+};
+
+// Appends the children whose bits are set. Writes up to tree_width of them.
+HWY_INLINE std::size_t Append(unsigned near, std::uint32_t first, const float* squared, Far* out) {
     std::size_t count = 0;
     for (unsigned child = 0; child < tree_width; ++child) { // without branches
-        out[count] = first + child;
+        out[count] = {first + child, squared[child]};
         count += near >> child & 1;
     }
     return count;
@@ -192,27 +199,36 @@ void FindNear(const TreeView& tree, std::uint32_t part, const float* point, floa
         const std::uint32_t leaf = NearestLeaf(tree, part, p, reach);
         if (leaf < tree.leaf_count) visit_leaf(leaf);
     }
-    // A good reach is known by now, so the order matters little, and leaves can wait for each other.
+    // A fair reach is known by now. Leaves wait for each other, so that the nearest one comes first: it may
+    // make the others too far.
     constexpr std::size_t most_leaves = 64;
-    std::uint32_t nodes[TreeView::most_levels * tree_width + tree_width];
-    std::uint32_t leaves[most_leaves + tree_width];
+    Far nodes[TreeView::most_levels * tree_width + tree_width], leaves[most_leaves + tree_width];
     std::size_t node_count = 1, leaf_count = 0;
-    nodes[0] = tree.leaf_count + tree.node_count - 1;
+    nodes[0] = {tree.leaf_count + tree.node_count - 1, 0};
+    const auto visit_leaves = [&]() HWY_ATTR {
+        std::size_t nearest = 0;
+        for (std::size_t i = 1; i < leaf_count; ++i)
+            if (leaves[i].squared < leaves[nearest].squared) nearest = i;
+        if (leaf_count > 0) std::swap(leaves[0], leaves[nearest]);
+        for (std::size_t i = 0; i < leaf_count; ++i)
+            if (leaves[i].squared <= reach * reach) visit_leaf(leaves[i].number);
+        leaf_count = 0;
+    };
     while (node_count > 0) {
-        const TreeNode& node = tree.nodes[nodes[--node_count] - tree.leaf_count];
+        const Far at = nodes[--node_count];
+        if (at.squared > reach * reach) continue;
+        const TreeNode& node = tree.nodes[at.number - tree.leaf_count];
         alignas(32) float squared[tree_width];
         unsigned near = BoundChildren(node, p, reach, squared);
         if (tree.part) near = OfPart(tree, part, node.first_child, near);
         if (node.first_child >= tree.leaf_count) {
-            node_count += Append(near, node.first_child, nodes + node_count);
+            node_count += Append(near, node.first_child, squared, nodes + node_count);
             continue;
         }
-        leaf_count += Append(near, node.first_child, leaves + leaf_count);
-        if (leaf_count < most_leaves && node_count > 0) continue;
-        for (std::size_t i = 0; i < leaf_count; ++i) visit_leaf(leaves[i]);
-        leaf_count = 0;
+        leaf_count += Append(near, node.first_child, squared, leaves + leaf_count);
+        if (leaf_count >= most_leaves) visit_leaves();
     }
-    for (std::size_t i = 0; i < leaf_count; ++i) visit_leaf(leaves[i]);
+    visit_leaves();
 }
 
 void FindNearestFirst(const TreeView& tree, std::uint32_t part, const float* point, float reach,

@@ -53,6 +53,11 @@ void ConstraintStage::reserve(std::uint32_t body_count, std::uint64_t contact_co
     constraints_.reserve(body_count, static_cast<std::size_t>(contact_count));
 }
 
+void ConstraintStage::prepare(const Body& body, const Topology& topology, bool folds) {
+    trees_.add(body.mesh_id);
+    trees_[body.mesh_id].update({&topology, body.tets, body.positions}, folds, nullptr);
+}
+
 DepthStage& ConstraintStage::depth() {
     return depth_ ? *depth_ : depth_.emplace(chosen_hits_.memory(), trees_);
 }
@@ -148,6 +153,7 @@ void ConstraintStage::find(const vox_constraint_desc& desc, const Scene& scene, 
     ConstraintSources sources{};
     sources.method = desc.method;
     sources.closest_budget = desc.closest_budget;
+    sources.most_per_pair = most_per_pair_;
     {
         const Timed timed(profile.depth_ns);
         const bool all = choose_pairs(desc, scene), with_depth = desc.method != VOX_DEPTH_METHOD_NONE;
@@ -164,6 +170,7 @@ void ConstraintStage::find(const vox_constraint_desc& desc, const Scene& scene, 
     const Timed timed(profile.constraints_ns);
     constraints_.find(sources, scene.workers);
     counters.constraints = constraints_.view().count;
+    counters.constraints_left_out = constraints_.left_out();
     if (sources.penetrations && desc.closest_budget > 0)
         counters.unknown_penetrations = static_cast<std::uint64_t>(
             std::ranges::count(penetrations_.all(), VOX_DEPTH_UNKNOWN, &Penetration::state));

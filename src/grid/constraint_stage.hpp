@@ -30,9 +30,10 @@ struct StepData {
 
 class ConstraintStage {
 public:
-    explicit ConstraintStage(std::pmr::memory_resource* memory)
-        : trees_(memory), penetrations_(memory), constraints_(memory), chosen_pairs_(memory),
-          chosen_bodies_(memory), chosen_hits_(memory) {}
+    // A pair has at most so many constraints; 0: all.
+    ConstraintStage(std::pmr::memory_resource* memory, std::uint32_t most_per_pair)
+        : most_per_pair_(most_per_pair), trees_(memory), penetrations_(memory), constraints_(memory),
+          chosen_pairs_(memory), chosen_bodies_(memory), chosen_hits_(memory) {}
 
     // What a step has when its pairs are known.
     struct Scene {
@@ -50,8 +51,11 @@ public:
     // Throws INVALID_STATE where a body of a chosen pair is not as it was in the step.
     void find(const vox_constraint_desc& desc, const Scene& scene, Counters& counters, Profile& profile);
     const Constraints& constraints() const noexcept { return constraints_; }
+    std::uint32_t most_per_pair() const noexcept { return most_per_pair_; }
 
     void reserve(std::uint32_t body_count, std::uint64_t contact_count);
+    // Makes the tree over the surface of a mesh.
+    void prepare(const Body& body, const Topology& topology, bool folds);
     // As those of Constraints; without `all`, trees stay as well.
     void clear(bool all) noexcept;
     void forget(vox_body mesh) noexcept { trees_.forget(mesh); }
@@ -73,6 +77,7 @@ private:
     DepthStage& depth();
     void find_depths(const FoundDepths& wanted, const Scene& scene, Counters& counters);
 
+    std::uint32_t most_per_pair_;
     depth::SurfaceTrees trees_;       // that depths search
     std::optional<DepthStage> depth_; // once depths were looked for
     Penetrations penetrations_;

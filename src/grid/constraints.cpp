@@ -27,13 +27,14 @@ void write_vector(double (&out)[3], const Vec3d& v) noexcept {
 }
 
 void write_pair(const Body& a, const Body& b, vox_constraint_kind kind, std::uint32_t pair,
-                vox_constraint& c) noexcept {
+                std::uint32_t left_out, vox_constraint& c) noexcept {
     c.body_a = a.mesh_id;
     c.body_b = b.mesh_id;
     c.user_data_a = a.user_data;
     c.user_data_b = b.user_data;
     c.kind = kind;
     c.pair = pair;
+    c.left_out = left_out;
 }
 
 // When a vertex inside met the surface; 1 if that is not known.
@@ -75,7 +76,8 @@ void write_triangle(const depth::Solid& solid, std::uint32_t index, const Vec3d&
 } // namespace
 
 Constraints::Constraints(std::pmr::memory_resource* memory)
-    : now_(memory), last_(memory), pair_offsets_(memory), sources_(memory), listed_(memory), place_(memory) {}
+    : now_(memory), last_(memory), pair_offsets_(memory), sources_(memory), listed_(memory), place_(memory),
+      spots_(memory), kept_(memory), left_out_(memory) {}
 
 void Constraints::clear(bool all) noexcept {
     found_ = false; // the list keeps its size, as setting it again would fill it with zeros
@@ -100,10 +102,11 @@ Constraints::Key Constraints::key_of(const vox_constraint& c) noexcept {
 }
 
 // With room for a few more, so that a few more in a later step allocate nothing.
-void Constraints::make_room(std::size_t count, std::size_t pairs) {
-    reserve_sparingly(sources_, count);
-    reserve_sparingly(listed_, count);
+void Constraints::make_room(std::size_t listed, std::size_t count, std::size_t pairs) {
+    reserve_sparingly(sources_, listed);
+    reserve_sparingly(listed_, listed);
     reserve_growing(place_, kinds * pairs);
+    reserve_growing(left_out_, pairs);
     reserve_growing(pair_offsets_, pairs + 1);
     for (List* list : {&now_, &last_}) {
         reserve_sparingly(list->all, count);
@@ -113,7 +116,7 @@ void Constraints::make_room(std::size_t count, std::size_t pairs) {
 }
 
 void Constraints::reserve(std::size_t body_count, std::size_t contact_count) {
-    make_room(contact_count, 2 * std::min(8 * body_count, contact_count));
+    make_room(contact_count, contact_count, 2 * std::min(8 * body_count, contact_count));
 }
 
 // ---- where they come from --------------------------------------------------------------------------
@@ -184,9 +187,11 @@ Constraints::Ends Constraints::list(const ConstraintSources& from) {
 void Constraints::order(const ConstraintSources& from, const Ends& ends) {
     const std::size_t count = ends.back();
     check_contact_count(count, "constraints");
-    make_room(count, from.pairs.size()); // all that can fail
+    const std::size_t kept = count_kept(from, count);
+    make_room(count, kept, from.pairs.size()); // all that can fail
     found_ = false;
-    now_.all.resize(count);
+    listed_count_ = count;
+    now_.all.resize(kept);
     now_.method = from.method;
     now_.closest_budget = from.closest_budget;
     sources_.resize(count);
@@ -348,7 +353,7 @@ void Constraints::write_others(const ConstraintSources& from, const Run& run, Pr
                                                                      : writer.write_impact(source, c);
         const bool swapped = id_a != lower;
         const Body &a = *bodies[swapped], &b = *bodies[!swapped];
-        write_pair(a, b, run.kind, run.pair, c);
+        write_pair(a, b, run.kind, run.pair, left_out_[run.pair], c);
         write_vector(c.normal, vector_of(c.normal));
         c.previous = previous.find(run.kind, key_of(c));
         double sum = 0;
@@ -364,10 +369,7 @@ void Constraints::write_others(const ConstraintSources& from, const Run& run, Pr
 
 // A mesh with a shape.
 void Constraints::write_shapes(const ConstraintSources& from, const Run& run, Previous& previous) noexcept {
-    const auto of_source = [&](std::uint32_t source) {
-        return std::ranges::upper_bound(from.shapes, source, {}, &ShapeRun::first) - 1;
-    };
-    auto found = of_source(sources_[run.begin]);
+    const ShapeRun* found = from.run_of(sources_[run.begin]);
     const Body &a = from.bodies[body_index(from.bodies, found->body_a)],
                &b = from.bodies[body_index(from.bodies, found->body_b)];
     for (std::size_t i = run.begin; i < run.end; ++i) {
@@ -376,7 +378,7 @@ void Constraints::write_shapes(const ConstraintSources& from, const Run& run, Pr
         const std::size_t at = source - found->first;
         vox_constraint& c = now_.all[i];
         c = {};
-        write_pair(a, b, run.kind, run.pair, c);
+        write_pair(a, b, run.kind, run.pair, left_out_[run.pair], c);
         const auto write_common = [&c](const auto& contact) {
             c.element_b = contact.element;
             c.state = contact.state;
@@ -410,12 +412,6 @@ void Constraints::write_shapes(const ConstraintSources& from, const Run& run, Pr
 
 namespace {
 
-// The contact that a constraint of a vertex inside comes from.
-const Hit& hit_of(const ConstraintSources& from, std::uint32_t source) noexcept {
-    return from.hits[from.penetrations ? static_cast<std::size_t>(from.penetrations->all()[source].contact)
-                                       : source];
-}
-
 // Contacts that are weighed together. Their tetrahedra and positions are anywhere in memory, and waiting for
 // them takes longer than the arithmetic: while a block is written, those of the next one arrive in the cache.
 struct HitBlock {
@@ -425,7 +421,7 @@ struct HitBlock {
     void fetch(const ConstraintSources& from, std::span<const std::uint32_t> sources) noexcept {
         count = std::min(point_block, sources.size());
         for (std::size_t i = 0; i < count; ++i) {
-            hits[i] = hit_of(from, sources[i]);
+            hits[i] = from.hit_of(sources[i]);
             prefetch(&from.bodies[hits[i].body_b].tets[hits[i].tet]);
         }
     }
@@ -463,7 +459,6 @@ void write_vertex(const ConstraintSources& from, const Hit& hit, std::uint32_t s
     c.element_b = hit.tet;
     write_vector(c.position, p);
     c.time = from.meetings.empty() ? 1 : time_of(from.meetings, a.mesh_id, hit.vertex, b.mesh_id);
-    c.reserved = 0;
     c.state = VOX_DEPTH_UNKNOWN;
     c.gap = 0;
     Vec3d normal{0, 0, 0};
@@ -487,16 +482,20 @@ void write_vertex(const ConstraintSources& from, const Hit& hit, std::uint32_t s
 bool Constraints::carry_inside(const ConstraintSources& from, const Run& run,
                                const Previous& previous) noexcept {
     if (now_.method != last_.method || now_.closest_budget != last_.closest_budget) return false;
-    const Hit& hit = hit_of(from, sources_[run.begin]);
+    const Hit& hit = from.hit_of(sources_[run.begin]);
     if (!from.bodies[hit.body_a].carried || !from.bodies[hit.body_b].carried) return false;
     const std::uint32_t* const bounds = now_.first.data() + kinds * run.pair;
     const std::uint32_t old = previous.first(VOX_CONSTRAINT_INSIDE, bounds[1] - bounds[0]);
     if (old == VOX_NONE) return false;
+    for (std::size_t i = run.begin; left_out_[run.pair] > 0 && i < run.end;
+         ++i) // others may have stayed then
+        if (last_.all[old + (i - bounds[0])].vertices[0] != from.hit_of(sources_[i]).vertex) return false;
     for (std::size_t i = run.begin; i < run.end; ++i) {
         const std::size_t same = old + (i - bounds[0]);
         vox_constraint& c = now_.all[i];
         c = last_.all[same];
         c.pair = run.pair;
+        c.left_out = left_out_[run.pair];
         c.previous = static_cast<std::uint32_t>(same);
         c.time = time_of(from.meetings, c.body_a, c.vertices[0], c.body_b);
     }
@@ -530,7 +529,7 @@ void Constraints::write_inside(const ConstraintSources& from, const Run& run, Pr
                 previous.begin(now_.pairs[pair]);
             }
             vox_constraint& c = now_.all[begin + i];
-            write_pair(a, b, VOX_CONSTRAINT_INSIDE, pair, c);
+            write_pair(a, b, VOX_CONSTRAINT_INSIDE, pair, left_out_[pair], c);
             c.previous = previous.find(VOX_CONSTRAINT_INSIDE, {a.mesh_id, {hit.vertex, 0, 0, 0, 0}});
             const auto at = [i](const double(&of)[3][point_block]) {
                 return Vec3d{of[0][i], of[1][i], of[2][i]};
@@ -549,9 +548,9 @@ void Constraints::write_inside(const ConstraintSources& from, const Run& run, Pr
 
 // ---- all of them -----------------------------------------------------------------------------------
 
-static bool has_shape(const ConstraintSources& from, const IdPair& pair) noexcept {
-    return !from.shapes.empty() && (from.bodies[body_index(from.bodies, pair.body_a)].shape ||
-                                    from.bodies[body_index(from.bodies, pair.body_b)].shape);
+bool ConstraintSources::has_shape(const IdPair& pair) const noexcept {
+    return !shapes.empty() &&
+           (bodies[body_index(bodies, pair.body_a)].shape || bodies[body_index(bodies, pair.body_b)].shape);
 }
 
 void Constraints::write(const ConstraintSources& from, std::size_t begin, std::size_t end) noexcept {
@@ -568,7 +567,7 @@ void Constraints::write(const ConstraintSources& from, std::size_t begin, std::s
                       std::min<std::size_t>(end, first[bucket + 1])};
         begin = run.end;
         previous.begin(now_.pairs[run.pair]);
-        if (has_shape(from, now_.pairs[run.pair])) {
+        if (from.has_shape(now_.pairs[run.pair])) {
             write_shapes(from, run, previous);
         } else if (run.kind != VOX_CONSTRAINT_INSIDE) {
             write_others(from, run, previous);
@@ -585,6 +584,7 @@ void Constraints::write(const ConstraintSources& from, std::size_t begin, std::s
 
 void Constraints::find(const ConstraintSources& from, Workers& workers) {
     order(from, list(from));
+    if (left_out() > 0) limit(from, workers);
     constexpr std::size_t least = 512; // that are worth a task
     const auto run = [&](std::size_t begin, std::size_t end, std::uint32_t) { write(from, begin, end); };
     if (now_.all.size() > least)

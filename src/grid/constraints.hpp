@@ -10,6 +10,7 @@
 
 #include <vox/vox.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -41,6 +42,17 @@ struct ConstraintSources {
     std::span<const Impact> impacts;
     std::span<const ShapeRun> shapes; // sorted by body_a, body_b
     std::size_t shape_count;          // contacts of these
+    std::uint32_t most_per_pair;      // 0: all of them
+
+    // The contact that a constraint of a vertex inside comes from.
+    const Hit& hit_of(std::uint32_t source) const noexcept {
+        return hits[penetrations ? static_cast<std::size_t>(penetrations->all()[source].contact) : source];
+    }
+    // Of the shape contact with this number.
+    const ShapeRun* run_of(std::uint32_t source) const noexcept {
+        return &*(std::ranges::upper_bound(shapes, source, {}, &ShapeRun::first) - 1);
+    }
+    bool has_shape(const IdPair& pair) const noexcept;
 };
 
 class Constraints {
@@ -58,6 +70,8 @@ public:
     // When the results of a step are gone; with `all`, also what the next ones are compared with.
     void clear(bool all) noexcept;
 
+    // How many the limit of a pair left out.
+    std::uint64_t left_out() const noexcept { return listed_count_ - now_.all.size(); }
     // Whether they were found since the step began.
     bool found() const noexcept { return found_; }
     // `data` of constraints of which none were found is null.
@@ -88,10 +102,13 @@ private:
     class Previous;
 
     static Key key_of(const vox_constraint& constraint) noexcept;
-    void make_room(std::size_t count, std::size_t pairs);
+    void make_room(std::size_t listed, std::size_t kept, std::size_t pairs);
     using Ends = std::array<std::size_t, kinds>;
     Ends list(const ConstraintSources& sources);
     void order(const ConstraintSources& sources, const Ends& ends);
+    std::size_t count_kept(const ConstraintSources& sources, std::size_t listed);
+    void limit(const ConstraintSources& sources, Workers& workers);
+    void keep(const ConstraintSources& sources, std::size_t pair) noexcept;
     struct Run { // constraints of one kind from those of `pair` on
         std::uint32_t pair;
         vox_constraint_kind kind;
@@ -111,6 +128,15 @@ private:
     };
     Array<Listed> listed_;
     Array<std::uint32_t> place_; // where the next of each pair and kind goes
+    struct Spot {                // of a constraint of a pair that has too many
+        Vec3d at;
+        double gap;
+        double apart; // square of the distance from the nearest one that is kept
+    };
+    Array<Spot> spots_;
+    Array<std::uint8_t> kept_;      // of each constraint
+    Array<std::uint32_t> left_out_; // of each pair
+    std::size_t listed_count_ = 0;
     bool found_ = false;
 };
 

@@ -67,7 +67,9 @@ CostWeights weights_of(const vox_reference_desc* given) {
 void check_grid_desc(const vox_grid_desc& desc) {
     if (!(desc.cell_size >= 0) || std::isinf(desc.cell_size))
         refuse(format("grid cell_size is %g, expected a finite number >= 0", desc.cell_size));
-    if (desc.reserved != 0) refuse(format("grid reserved is %u, expected 0", desc.reserved));
+    if (desc.max_constraints_per_pair > VOX_MAX_CONSTRAINTS_PER_PAIR)
+        refuse(format("grid max_constraints_per_pair is %u, expected at most %u",
+                      desc.max_constraints_per_pair, VOX_MAX_CONSTRAINTS_PER_PAIR));
     check_allocator(desc.allocator, "grid allocator");
     check_workers(value_of(desc.tasks), desc.worker_count);
     check_flags(desc.flags);
@@ -93,8 +95,9 @@ vox_grid::vox_grid(const vox_grid_desc& desc, const MemoryShare& memory)
       settings_(desc.reference ? read_reference(desc.reference) : ReferenceSettings{}), flags_(desc.flags),
       requested_cell_size_(desc.cell_size), used_cell_size_(desc.cell_size),
       adaptive_(weights_of(desc.reference)), meshes_(&memory_), step_(&memory_), fast_engine_(&memory_),
-      reference_(&memory_), surfaces_(&memory_), pairs_(&memory_), constraints_(&memory_),
-      left_out_(&memory_), locators_(share_), query_bodies_(&memory_) {
+      reference_(&memory_), surfaces_(&memory_), pairs_(&memory_),
+      constraints_(std::in_place, &memory_, desc.max_constraints_per_pair), left_out_(&memory_),
+      locators_(share_), query_bodies_(&memory_) {
     surfaces_.find_edges((flags_ & VOX_GRID_EDGES) != 0);
     surfaces_.set_margin(desc.margin);
     list_counters();
@@ -113,6 +116,27 @@ void vox_grid::prepare(Mesh& mesh, fast::MeshState& state) {
     } else if (surfaces_.any()) {
         mesh.make_tiles();
     }
+}
+
+// Also what stages make of a surface when they first search it. If that fails, what is made stays.
+void vox_grid::prepare_meshes() {
+    meshes_.for_each([&](vox_body id, MeshSlot& slot) {
+        Mesh& mesh = slot.mesh;
+        if (mesh.tet_count() == 0 || !mesh.has_positions()) return;
+        mesh.check_format_once(id);
+        if (is_left_out(mesh.body(id))) return;
+        check_finite(mesh.body(id));
+        mesh.make_rings();
+        prepare(mesh, slot.state);
+        if (!mesh.has_topology() || mesh.topology().triangles.empty()) return;
+        const Body body = mesh.body(id);
+        if (finds_constraints() && !is_sensor(mesh.filter()))
+            constraints_->prepare(body, mesh.topology(),
+                                  (mesh.filter().flags & VOX_FILTER_SELF_COLLISION) != 0);
+        if (surfaces_.reads_surfaces())
+            surfaces_.prepare(body, mesh.topology(), {mesh.topology_version(), mesh.tiles_version()},
+                              mesh.tiled().tiles);
+    });
 }
 
 vox_body vox_grid::insert(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter) {
@@ -339,7 +363,7 @@ void vox_grid::set_flags(std::uint32_t flags) {
     const bool no_constraints = (flags_ & ~flags & VOX_GRID_CONSTRAINTS) != 0;
     flags_ = flags;
     if (no_constraints) {
-        constraints_.emplace(&memory_);
+        constraints_.emplace(&memory_, constraints_->most_per_pair());
         drop_topologies();
     }
     surfaces_.find_edges((flags & VOX_GRID_EDGES) != 0);

@@ -40,6 +40,7 @@ public:
 
     void clear();
     void reserve(std::uint32_t mesh_count, std::uint64_t contact_count);
+    void prepare_meshes();
     void set_cell_size(double cell_size);
     void set_worker_count(std::uint32_t worker_count);
     void set_flags(std::uint32_t flags);

@@ -205,7 +205,7 @@ struct ShapeContacts::Search {
             at[count++] = placed.now.to_shape(body.positions.exact(v));
         }
         if (moves && all_stay_beyond(std::span(from).first(count), std::span(at).first(count))) return;
-        const std::uint32_t found = shape.look(std::span(at).first(count), reach, seen.data());
+        const std::uint32_t found = shape.look(std::span(at).first(count), reach, state, seen.data());
         for (std::size_t i = 0; i < count; ++i) {
             const bool is_near = (found >> i & 1) != 0, is_inside = is_near && seen[i].is_inside;
             ShapePoint met;
@@ -269,6 +269,7 @@ struct ShapeContacts::Search {
     Box box;              // around the shape, for boxes of the mesh
     bool has_previous, moves;
     const Sphere* moving = nullptr;
+    RigidShape::LookState state;
     Vec3d local{0, 0, 0}, normal{0, 0, 0}; // of the last contact, in the shape's frame and in the world
 };
 

@@ -27,7 +27,7 @@ void Snapshot::save_settings(const vox_grid& grid, SnapshotWriter& out) {
     out.point(settings.world_max);
     out.real(grid.used_cell_size_);
     out.u32(grid.chooses_cell_size());
-    out.u32(0); // reserved; a grid that chooses its cell size does so again once it is loaded
+    out.u32(grid.constraints_->most_per_pair());
     out.u64(grid.epoch_);
     out.end_chunk();
 }
@@ -55,7 +55,7 @@ vox_grid_desc Snapshot::read_settings(SnapshotChunk& in, vox_grid_desc desc, vox
     const bool choose = in.flag("whether the cell size was chosen");
     if (!choose && cell_size == 0) in.refuse("cell size is 0, but not to be chosen");
     desc.cell_size = choose ? 0 : cell_size;
-    in.reserved_word();
+    desc.max_constraints_per_pair = in.u32();
     const std::uint64_t epoch = in.u64();
     in.end();
     if (grid) { // what a vox_grid_desc does not hold

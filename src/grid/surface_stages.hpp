@@ -97,6 +97,16 @@ public:
         });
         return is_unchanged;
     }
+    // Makes the features of the surface of a mesh; call it while reads_surfaces().
+    void prepare(const Body& body, const Topology& topology, const SurfaceVersion& version,
+                 const Tiles& tiles) {
+        const Topology* const of = &topology;
+        fast::StepBody prepared{};
+        prepared.tiles = &tiles;
+        StepScene scene{{&body, 1}, {&of, 1}, {&version, 1}, nullptr};
+        scene.of = {&prepared, 1};
+        (void)kept_->features.of(scene, 0);
+    }
     // Calls visit(pairs) for each kind of contact.
     template <class Visit>
     void for_pairs(const Visit& visit) {

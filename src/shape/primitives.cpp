@@ -136,7 +136,7 @@ bool BoxShape::look(const Vec3d& p, double reach, ShapePoint& out) const {
 
 Field::Field(const vox_shape_desc& desc) noexcept : RigidShape(desc, around(desc)) {}
 
-std::uint32_t Field::look(std::span<const Vec3d> points, double reach, ShapePoint* out) const {
+std::uint32_t Field::look(std::span<const Vec3d> points, double reach, LookState&, ShapePoint* out) const {
     std::array<double, 3 * most_points> at{}, gradients{};
     std::array<double, most_points> distances{};
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -168,7 +168,7 @@ double Field::meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at) const 
     double time = 0;
     for (int sphere = 0; sphere < most_spheres; ++sphere) {
         const Vec3d p = from + time * way;
-        (void)look({&p, 1}, unlimited, &at);
+        (void)look(p, unlimited, at);
         if (!(at.distance > close) && dot(at.normal, way) < 0) return time;
         const double free = std::max(at.distance, close); // where it begins at the surface, too, and leaves
         if (!(time * all + free < all)) return no_meeting;

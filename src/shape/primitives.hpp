@@ -13,7 +13,7 @@ namespace vox {
 template <class Self>
 class PointByPoint : public RigidShape {
 public:
-    std::uint32_t look(std::span<const Vec3d> points, double reach, ShapePoint* out) const final {
+    std::uint32_t look(std::span<const Vec3d> points, double reach, LookState&, ShapePoint* out) const final {
         std::uint32_t found = 0;
         for (std::size_t i = 0; i < points.size(); ++i)
             found |= std::uint32_t{static_cast<const Self*>(this)->Self::look(points[i], reach, out[i])} << i;
@@ -65,9 +65,11 @@ class Field final : public RigidShape {
 public:
     explicit Field(const vox_shape_desc& desc) noexcept;
     bool look(const Vec3d& p, double reach, ShapePoint& out) const override {
-        return look({&p, 1}, reach, &out) != 0;
+        LookState state;
+        return look({&p, 1}, reach, state, &out) != 0;
     }
-    std::uint32_t look(std::span<const Vec3d> points, double reach, ShapePoint* out) const override;
+    std::uint32_t look(std::span<const Vec3d> points, double reach, LookState&,
+                       ShapePoint* out) const override;
     double meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at) const override;
 };
 

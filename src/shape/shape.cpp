@@ -9,7 +9,8 @@
 
 namespace vox {
 
-std::uint32_t RigidShape::look(std::span<const Vec3d> points, double reach, ShapePoint* out) const {
+std::uint32_t RigidShape::look(std::span<const Vec3d> points, double reach, LookState&,
+                               ShapePoint* out) const {
     std::uint32_t found = 0;
     for (std::size_t i = 0; i < points.size(); ++i)
         found |= std::uint32_t{look(points[i], reach, out[i])} << i;

@@ -44,9 +44,18 @@ public:
 
     // Returns false if p is further outside than `reach`, which is not negative; `out` is unspecified then.
     virtual bool look(const Vec3d& p, double reach, ShapePoint& out) const = 0;
+    // What a look leaves to the next, for points close to each other. The answers do not depend on it.
+    struct LookState {
+        std::uint32_t near = ~0u; // a triangle that is probably close
+        // No surface is as close to this point.
+        Vec3d at{0, 0, 0};
+        double clear = 0;
+        bool is_enclosed = false; // as all points so close to it
+    };
     // Looks from at most most_points points. Returns a bit for each.
     static constexpr std::size_t most_points = 8;
-    virtual std::uint32_t look(std::span<const Vec3d> points, double reach, ShapePoint* out) const;
+    virtual std::uint32_t look(std::span<const Vec3d> points, double reach, LookState& state,
+                               ShapePoint* out) const;
     // True only if all points within `radius` of `centre` are outside, and further away than `reach`.
     virtual bool is_beyond(const Vec3d& centre, double radius, double reach) const;
     // When a point that moves in a straight line, and begins outside, first meets the shape: from 0 to 1 and

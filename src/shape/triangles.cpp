@@ -36,7 +36,8 @@ Vec3d across(const Vec3d& v) noexcept {
 TriangleShape::TriangleShape(const vox_shape_desc& desc, Array<Vec3d>&& points,
                              Array<ShapeTriangle>&& triangles, double radius)
     : RigidShape(desc, bounds_of(points, radius)), facets_(std::move(points), std::move(triangles)),
-      radius_(radius), topology_(facets_.triangles.memory()), closest_tree_(facets_.triangles.memory()) {
+      radius_(radius), extent_(length(bounds_.max - bounds_.min)), topology_(facets_.triangles.memory()),
+      closest_tree_(facets_.triangles.memory()) {
     desc_.positions = vox_double_positions(&facets_.points.data()->x, facets_.points.size());
     desc_.triangles = facets_.triangles.data()->data();
     desc_.triangle_count = facets_.triangles.size();
@@ -73,20 +74,31 @@ void TriangleShape::look_at(const Vec3d& p, std::uint32_t triangle, bool is_encl
         out.normal = across(largest_coordinate(b - a) > 0 ? b - a : c - a);
 }
 
-std::uint32_t TriangleShape::look(std::span<const Vec3d> points, double reach, ShapePoint* out) const {
-    depth::SearchState state;
+std::uint32_t TriangleShape::look(std::span<const Vec3d> points, double reach, LookState& state,
+                                  ShapePoint* out) const {
     std::uint32_t found = 0;
     for (std::size_t i = 0; i < points.size(); ++i)
         found |= std::uint32_t{look(points[i], reach, state, out[i])} << i;
     return found;
 }
 
-bool TriangleShape::look(const Vec3d& p, double reach, depth::SearchState& state, ShapePoint& out) const {
-    const bool is_enclosed = encloses(p), is_on = radius_ == 0 && is_on_surface(p);
+// No triangle is between points that are closer to each other than to all triangles: then they are on the
+// same side, unless terrain ends between them, and not on the surface. Distances are off by far less than is
+// left for that.
+bool TriangleShape::look(const Vec3d& p, double reach, LookState& state, ShapePoint& out) const {
+    const Vec3d from_last = p - state.at;
+    const bool is_clear = dot(from_last, from_last) < state.clear * state.clear;
+    const bool is_enclosed = is_clear && kind() != VOX_SHAPE_HEIGHTFIELD ? state.is_enclosed : encloses(p),
+               is_on = !is_clear && radius_ == 0 && is_on_surface(p);
     if (!is_enclosed && !is_on && reach + radius_ == 0) return false;
+    depth::SearchState search;
+    search.near = state.near;
     depth::Closest closest;
-    if (!closest_tree_.find(p, depth::SurfaceTree::no_vertex, state, closest)) return false;
+    if (!closest_tree_.find(p, depth::SurfaceTree::no_vertex, search, closest)) return false;
     look_at(p, closest.at.triangle, is_enclosed, out);
+    constexpr double rounding = 0x1p-20;
+    const double length = std::sqrt(closest.squared);
+    state = {search.near, p, std::max(0.0, length - rounding * (length + extent_)), is_enclosed};
     out.is_inside = is_enclosed || is_on || (radius_ > 0 && out.distance <= 0);
     if (is_on) out.distance = 0;
     return out.distance <= reach;

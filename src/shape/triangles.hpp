@@ -15,10 +15,11 @@ namespace vox {
 class TriangleShape : public RigidShape {
 public:
     bool look(const Vec3d& p, double reach, ShapePoint& out) const final {
-        depth::SearchState state;
+        LookState state;
         return look(p, reach, state, out);
     }
-    std::uint32_t look(std::span<const Vec3d> points, double reach, ShapePoint* out) const final;
+    std::uint32_t look(std::span<const Vec3d> points, double reach, LookState& state,
+                       ShapePoint* out) const final;
     bool is_beyond(const Vec3d& centre, double radius, double reach) const final;
     double meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at) const final;
     const ShapeFacets* facets() const noexcept final { return &facets_; }
@@ -36,12 +37,12 @@ protected:
     }
 
     ShapeFacets facets_;
-    double radius_;
+    double radius_, extent_;          // the latter bounds the distance of any two points of the triangles
     Topology topology_;               // the triangles alone
     depth::SurfaceTree closest_tree_; // over all of them
 
 private:
-    bool look(const Vec3d& p, double reach, depth::SearchState& state, ShapePoint& out) const;
+    bool look(const Vec3d& p, double reach, LookState& state, ShapePoint& out) const;
     void look_at(const Vec3d& p, std::uint32_t triangle, bool is_enclosed, ShapePoint& out) const noexcept;
 };
 

@@ -524,10 +524,120 @@ START_TEST(task_systems) {
 }
 END_TEST
 
+/* ---- prepared in advance ------------------------------------------------------------------------ */
+
+/* Two boxes that stand apart, then meet at a corner. */
+typedef struct corner_scene {
+    ledger memory;
+    body bodies[2];
+    vox_body ids[2];
+    vox_grid* grid;
+} corner_scene;
+
+static void begin_corner(corner_scene* s, uint32_t workers) {
+    const ledger none = {0};
+    s->memory = none;
+    vox_grid_desc desc = depth_desc();
+    desc.flags |= VOX_GRID_EDGES;
+    desc.margin = 0.05;
+    desc.worker_count = workers;
+    desc.allocator = ledger_allocator(&s->memory);
+    s->grid = grid_of(&desc);
+    for (int b = 0; b < 2; ++b) {
+        s->bodies[b] = make_box(16, 1, 30.0f * (float)b, 0, 0);
+        const vox_mesh_desc mesh = body_desc(&s->bodies[b]);
+        s->ids[b] = insert_mesh(s->grid, &mesh);
+    }
+    ck_ok(vox_grid_step(s->grid));
+}
+
+static void find_closest(const corner_scene* s) {
+    vox_constraint_desc desc = vox_default_constraint_desc();
+    desc.method = VOX_DEPTH_METHOD_CLOSEST;
+    ck_ok(vox_grid_step(s->grid));
+    ck_ok(vox_grid_find_constraints(s->grid, &desc));
+}
+
+static void end_corner(corner_scene* s) {
+    vox_grid_destroy(s->grid);
+    ck_assert_uint_eq(s->memory.bytes, 0);
+    for (int b = 0; b < 2; ++b) free_body(&s->bodies[b]);
+}
+
+START_TEST(prepared) {
+    ck_fails(vox_grid_prepare(NULL), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
+    for (uint32_t workers = 1; workers <= 3; workers += 2) {
+        corner_scene lazy, made;
+        uint64_t first[2], calls;
+        begin_corner(&lazy, workers);
+        begin_corner(&made, workers);
+        const uint64_t before = made.memory.bytes;
+        const vox_contact_view results = contacts_of(made.grid);
+        ck_ok(vox_grid_prepare(made.grid));
+        ck_assert_ptr_eq(contacts_of(made.grid).data, results.data);
+        const uint64_t of_surfaces = made.memory.bytes - before;
+        ck_assert_uint_gt(of_surfaces, 2 * 6 * 2 * 16 * 16 * 30); /* 30 bytes and more a triangle */
+        calls = made.memory.calls;
+        ck_ok(vox_grid_prepare(made.grid)); /* what is there is not made again */
+        ck_assert_uint_eq(made.memory.calls, calls);
+        corner_scene* const both[2] = {&lazy, &made};
+        for (int i = 0; i < 2; ++i) {
+            const uint64_t taken = both[i]->memory.taken;
+            move_body(&both[i]->bodies[1], 30 - 14.7, 15.3, 15.2);
+            move_body(&both[i]->bodies[1], -2 * (30 - 14.7), 0, 0);
+            find_closest(both[i]);
+            first[i] = both[i]->memory.taken - taken;
+        }
+        kept_constraints expected = keep_constraints(lazy.grid);
+        ck_assert_uint_gt(expected.count, 10);
+        same_constraints(made.grid, &expected);
+        /* The first contact takes what its lists take, and nothing for surfaces. */
+        ck_assert_uint_le(first[1] + of_surfaces, first[0]);
+        for (int again = 0; again < 2; ++again) { /* both lists of constraints */
+            ck_ok(vox_body_mark_moved(made.grid, made.ids[1]));
+            calls = made.memory.calls;
+            find_closest(&made);
+        }
+        ck_assert_uint_eq(made.memory.calls, calls);
+        same_constraints(made.grid, &expected);
+
+        const float was = made.bodies[0].positions[0];
+        made.bodies[0].positions[0] = NAN;
+        ck_fails(vox_grid_prepare(made.grid), VOX_ERROR_NON_FINITE, "not finite");
+        made.bodies[0].positions[0] = was;
+        vox_mesh_desc unbound = body_desc(&made.bodies[0]);
+        unbound.positions.data = NULL;
+        (void)insert_mesh(made.grid, &unbound);
+        ck_ok(vox_grid_prepare(made.grid));
+        free(expected.data);
+        end_corner(&lazy);
+        end_corner(&made);
+    }
+}
+END_TEST
+
+/* Each allocation of it fails: what it made stays, and it may be called again. */
+START_TEST(preparing_fails) {
+    for (uint64_t n = 1;; ++n) {
+        corner_scene s;
+        begin_corner(&s, 1);
+        const uint64_t calls = s.memory.calls;
+        s.memory.fail_at = calls + n;
+        const vox_result result = vox_grid_prepare(s.grid);
+        if (result != VOX_OK) ck_assert_int_eq(result, VOX_ERROR_OUT_OF_MEMORY);
+        s.memory.fail_at = 0;
+        ck_ok(vox_grid_prepare(s.grid));
+        ck_ok(vox_grid_step(s.grid));
+        end_corner(&s);
+        if (result == VOX_OK) break;
+    }
+}
+END_TEST
+
 static void add_tests(TCase* tests) {
-    tcase_add_each(tests, arguments, when_there_are_some, removed_and_edited, pairs_that_ended,
-                   bound_elsewhere, filters_that_change, positions_that_are_none_any_more, steady_state,
-                   all_or_nothing, byte_budget, task_systems);
+    tcase_add_each(tests, prepared, preparing_fails, arguments, when_there_are_some, removed_and_edited,
+                   pairs_that_ended, bound_elsewhere, filters_that_change, positions_that_are_none_any_more,
+                   steady_state, all_or_nothing, byte_budget, task_systems);
 }
 
 SUITE(constraints_life) { add_for_each_engine(suite, add_tests); }

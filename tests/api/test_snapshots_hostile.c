@@ -56,7 +56,7 @@ static const defect defects[] = {
     {"GRID", 0, 72, 8, 0x7ff0000000000000ull, VOX_ERROR_FORMAT, "cell size is inf"},
     {"GRID", 0, 72, 8, 0xbff0000000000000ull, VOX_ERROR_FORMAT, "cell size is -1"},
     {"GRID", 0, 80, 4, 2, VOX_ERROR_FORMAT, "whether the cell size was chosen is 2"},
-    {"GRID", 0, 84, 4, 1, VOX_ERROR_FORMAT, "a reserved word is 1"},
+    {"GRID", 0, 84, 4, 257, VOX_ERROR_FORMAT, "max_constraints_per_pair is 257"},
     {"SLOT", 0, -16, 4, 0x4f4c4f53u, VOX_ERROR_UNSUPPORTED, "chunk SOLO is unknown"},
     {"SLOT", 0, -16, 4, 0xff4c4f53u, VOX_ERROR_UNSUPPORTED, "chunk SOL? is unknown"},
     {"SLOT", 0, -16, 4, 0x4f4c4f73u, VOX_ERROR_FORMAT,

@@ -35,6 +35,7 @@ namespace Voxtet
             {
                 struct_size = (uint)sizeof(GridDesc), flags = options.Flags, worker_count = options.Workers,
                 cell_size = options.CellSize, margin = options.Margin, byte_budget = options.ByteBudget, log = &log,
+                max_constraints_per_pair = options.MaxConstraintsPerPair,
                 reference = options.Reference == null ? null : &reference
             };
             IntPtr grid;
@@ -126,6 +127,12 @@ namespace Voxtet
                 ++version;
                 VoxException.Check(Native.vox_grid_reserve(use.Pointer, meshes, contacts));
             }
+        }
+
+        /// <summary>Makes now what steps make of a mesh once, when they first need it.</summary>
+        public void Prepare()
+        {
+            using (var use = handle.Change()) VoxException.Check(Native.vox_grid_prepare(use.Pointer));
         }
 
         /// <summary>The cell size in use, 0 if none was chosen yet. Set: that of the following steps, 0 for the library's

@@ -640,8 +640,8 @@ namespace Voxtet
         public GridFlags flags;
         /// <summary>threads that share a step: up to VOX_MAX_WORKERS, or VOX_ALL_CORES; 0: one</summary>
         public uint worker_count;
-        /// <summary>0</summary>
-        public uint reserved;
+        /// <summary>Most constraints of a pair, up to VOX_MAX_CONSTRAINTS_PER_PAIR; 0: all.</summary>
+        public uint max_constraints_per_pair;
         /// <summary>edge length of a cell; 0: the library chooses it in every step.</summary>
         public double cell_size;
         /// <summary>see vox_grid_set_margin</summary>
@@ -778,8 +778,8 @@ namespace Voxtet
         /// <summary>index of the same constraint in the list of the step before, for a warm start; VOX_NONE if it is
         /// new.</summary>
         public uint previous;
-        /// <summary>0</summary>
-        public ulong reserved;
+        /// <summary>how many more its pair would have without max_constraints_per_pair</summary>
+        public ulong left_out;
     }
 
     /// <summary>Which constraints to find.</summary>
@@ -1883,6 +1883,8 @@ namespace Voxtet
         internal const uint VOX_MAX_CONTACTS = 4294967295;
         /// <summary>of a grid</summary>
         internal const uint VOX_MAX_WORKERS = 256;
+        /// <summary>vox_grid_desc.max_constraints_per_pair</summary>
+        internal const uint VOX_MAX_CONSTRAINTS_PER_PAIR = 256;
         /// <summary>names no body</summary>
         internal const uint VOX_NULL_BODY = 0;
         /// <summary>vox_filter.self_rings</summary>
@@ -2042,6 +2044,11 @@ namespace Voxtet
         /// need.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_reserve(IntPtr grid, uint body_count, ulong contact_count);
+
+        /// <summary>Makes now what steps make of a mesh once, when they first need it: topology, rings, tiles of its
+        /// surface and the tree over that, as far as the flags, the margin and its filter ask for them.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_prepare(IntPtr grid);
 
         /// <summary>Sets vox_grid_desc.cell_size for the following steps.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2485,7 +2492,7 @@ namespace Voxtet
             entries.Add(Entry("vox_grid_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
             entries.Add(Entry("vox_grid_desc.flags", (byte*)&s.flags - begin, 4, 4));
             entries.Add(Entry("vox_grid_desc.worker_count", (byte*)&s.worker_count - begin, 8, 8));
-            entries.Add(Entry("vox_grid_desc.reserved", (byte*)&s.reserved - begin, 12, 12));
+            entries.Add(Entry("vox_grid_desc.max_constraints_per_pair", (byte*)&s.max_constraints_per_pair - begin, 12, 12));
             entries.Add(Entry("vox_grid_desc.cell_size", (byte*)&s.cell_size - begin, 16, 16));
             entries.Add(Entry("vox_grid_desc.margin", (byte*)&s.margin - begin, 24, 24));
             entries.Add(Entry("vox_grid_desc.byte_budget", (byte*)&s.byte_budget - begin, 32, 32));
@@ -2593,7 +2600,7 @@ namespace Voxtet
             entries.Add(Entry("vox_constraint.user_data_b", (byte*)&s.user_data_b - begin, 168, 168));
             entries.Add(Entry("vox_constraint.pair", (byte*)&s.pair - begin, 176, 176));
             entries.Add(Entry("vox_constraint.previous", (byte*)&s.previous - begin, 180, 180));
-            entries.Add(Entry("vox_constraint.reserved", (byte*)&s.reserved - begin, 184, 184));
+            entries.Add(Entry("vox_constraint.left_out", (byte*)&s.left_out - begin, 184, 184));
         }
 
         static void AddConstraintDesc(List<LayoutEntry> entries)

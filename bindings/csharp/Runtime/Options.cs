@@ -33,6 +33,8 @@ namespace Voxtet
         public GridFlags Flags;
         /// <summary>See Grid.Margin.</summary>
         public double Margin;
+        /// <summary>Most constraints of a pair; 0: all.</summary>
+        public uint MaxConstraintsPerPair;
         /// <summary>Receives warnings and notes, on the thread that called; it must not call the grid.</summary>
         public Action<LogLevel, string> Log;
         /// <summary>The paper's engine with these settings; null: the fast engine, and in Load the one that was saved.

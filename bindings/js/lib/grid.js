@@ -7,7 +7,7 @@ import { guarded, memoryOf, Owned, pointerOf, pointerOfKind } from "./owned.js";
 import { records } from "./records.js";
 import { shapeOf } from "./shapes.js";
 
-const GRID = ["cellSize", "margin", "byteBudget", "flags", "log", "reference"];
+const GRID = ["cellSize", "margin", "byteBudget", "maxConstraintsPerPair", "flags", "log", "reference"];
 const REFERENCE = ["flags", "hashTableSize", "worldMin", "worldMax"];
 const FILTER = ["flags", "group", "category", "mask", "world", "selfRings", "selfRestDistance"];
 const MESH = ["positions", "tets", "userData", "filter", "restPositions"];
@@ -113,6 +113,10 @@ export class Grid extends Owned {
 
   reserve(meshes, contacts) {
     this.#call("vox_grid_reserve", integer(meshes, "meshes", "u32"), integer(contacts, "contacts", "count"));
+  }
+
+  prepare() {
+    this.#call("vox_grid_prepare");
   }
 
   get cellSize() {

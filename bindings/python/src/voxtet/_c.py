@@ -16,6 +16,7 @@ VOX_MAX_TETS = 2147483647
 VOX_MAX_SURFACE_TETS = 357913941
 VOX_MAX_CONTACTS = 4294967295
 VOX_MAX_WORKERS = 256
+VOX_MAX_CONSTRAINTS_PER_PAIR = 256
 VOX_NULL_BODY = 0
 VOX_MAX_RINGS = 8
 VOX_STENCIL_CAPACITY = 5
@@ -328,7 +329,7 @@ class vox_grid_desc(Structure):
         ("struct_size", c_uint32),
         ("flags", c_uint32),
         ("worker_count", c_uint32),
-        ("reserved", c_uint32),
+        ("max_constraints_per_pair", c_uint32),
         ("cell_size", c_double),
         ("margin", c_double),
         ("byte_budget", c_uint64),
@@ -440,12 +441,12 @@ class vox_constraint(Structure):
         ("user_data_b", c_uint64),
         ("pair", c_uint32),
         ("previous", c_uint32),
-        ("reserved", c_uint64),
+        ("left_out", c_uint64),
     ]
 
 dtypes["vox_constraint"] = dtype({
     "names": ["body_a", "body_b", "kind", "state", "count_a", "count", "vertices", "element_b", "weights", "normal",
-        "gap", "offset", "position", "time", "user_data_a", "user_data_b", "pair", "previous", "reserved"],
+        "gap", "offset", "position", "time", "user_data_a", "user_data_b", "pair", "previous", "left_out"],
     "formats": ["u4", "u4", "i4", "i4", "u4", "u4", ("u4", (5,)), "u4", ("f8", (5,)), ("f8", (3,)), "f8", "f8", ("f8",
         (3,)), "f8", "u8", "u8", "u4", "u4", "u8"],
     "offsets": [0, 4, 8, 12, 16, 20, 24, 44, 48, 88, 112, 120, 128, 152, 160, 168, 176, 180, 184],
@@ -1329,6 +1330,7 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_shape_set_previous_transform": (vox_result, (c_void_p, c_uint32, c_void_p)),
         "vox_grid_clear": (vox_result, (c_void_p,)),
         "vox_grid_reserve": (vox_result, (c_void_p, c_uint32, c_uint64)),
+        "vox_grid_prepare": (vox_result, (c_void_p,)),
         "vox_grid_set_cell_size": (vox_result, (c_void_p, c_double)),
         "vox_grid_set_worker_count": (vox_result, (c_void_p, c_uint32)),
         "vox_grid_set_flags": (vox_result, (c_void_p, c_uint32)),

@@ -107,7 +107,8 @@ def _log_function(grid: Grid, log: Log) -> Any:
 class Grid(Results):
     """A set of meshes, and of rigid shapes, that collide. `step` finds all contacts of their positions as they are then.
 
-    cell_size, worker_count (`workers`: 0 or 1 thread, or ALL_CORES), margin and byte budget are those of vox_grid_desc;
+    cell_size, worker_count (`workers`: 0 or 1 thread, or ALL_CORES), margin, byte budget and
+    max_constraints_per_pair (0: all) are those of vox_grid_desc;
     constraints, edges and skip_bad_bodies its flags; `reference` chooses the paper's engine in place of the fast one. `log` is
     called with a level of `logging` and a text; `logging.getLogger("voxtet").log` is one.
 
@@ -128,7 +129,7 @@ class Grid(Results):
 
     def __init__(self, cell_size: float = 0.0, *, workers: int = 1, reference: Optional[Reference] = None, byte_budget: int = 0,
                  constraints: bool = False, edges: bool = False, skip_bad_bodies: bool = False, margin: float = 0.0,
-                 log: Optional[Log] = None, **unknown: Any) -> None:
+                 max_constraints_per_pair: int = 0, log: Optional[Log] = None, **unknown: Any) -> None:
         for name in unknown:
             threads = "; the threads of a step are `workers`" if name in ("threads", "num_threads", "n_jobs", "thread_count") else ""
             raise TypeError(f"Grid() has no argument {name!r}{threads}")
@@ -136,6 +137,7 @@ class Grid(Results):
         desc.cell_size = real(cell_size, "cell_size")
         desc.reference = pointer_to(reference)
         desc.flags = _changed(0, constraints=constraints, edges=edges, skip_bad_bodies=skip_bad_bodies)
+        desc.max_constraints_per_pair = integer(max_constraints_per_pair, "max_constraints_per_pair", 0, U32)
         self._prepare(desc, workers, byte_budget, margin, log)
         pointer = ctypes.c_void_p()
         vox.vox_grid_create(desc, pointer)
@@ -234,6 +236,11 @@ class Grid(Results):
         with self._lock:
             self._refuse("reserve")
             vox.vox_grid_reserve(self._pointer, meshes, contacts)
+
+    def prepare(self) -> None:
+        """Makes now what steps make of a mesh once, when they first need it."""
+        with self._lock:
+            vox.vox_grid_prepare(self._pointer)
 
     def _refuse(self, what: str) -> None:
         if self._borrowed:

@@ -22,6 +22,8 @@ pub const VOX_MAX_SURFACE_TETS: u32 = 357913941;
 pub const VOX_MAX_CONTACTS: u32 = 4294967295;
 /// of a grid
 pub const VOX_MAX_WORKERS: u32 = 256;
+/// vox_grid_desc.max_constraints_per_pair
+pub const VOX_MAX_CONSTRAINTS_PER_PAIR: u32 = 256;
 /// names no body
 pub const VOX_NULL_BODY: u32 = 0;
 /// vox_filter.self_rings
@@ -459,8 +461,9 @@ pub struct vox_grid_desc {
     pub flags: u32,
     /// threads that share a step: up to VOX_MAX_WORKERS, or VOX_ALL_CORES; 0: one
     pub worker_count: u32,
-    /// 0
-    pub reserved: u32,
+    /// Most constraints of a pair, up to VOX_MAX_CONSTRAINTS_PER_PAIR; 0: all. The deepest stays, then whichever is
+    /// farthest from all that stay; PROXIMITY only if no others are left. Pairs and contacts do not change.
+    pub max_constraints_per_pair: u32,
     /// edge length of a cell; 0: the library chooses it in every step. Never changes results
     pub cell_size: f64,
     /// see vox_grid_set_margin
@@ -619,8 +622,8 @@ pub struct vox_constraint {
     /// index of the same constraint in the list of the step before, for a warm start; VOX_NONE if it is new. Same means
     /// the same vertex and body_b, or the same edge and face
     pub previous: u32,
-    /// 0
-    pub reserved: u64,
+    /// how many more its pair would have without max_constraints_per_pair
+    pub left_out: u64,
 }
 
 /// Which constraints to find. By default all fields are 0: all constraints, with consistent depth.
@@ -1743,9 +1746,9 @@ extern "C" {
     /// Finds all contacts of the bodies as they are now, and whatever the flags ask for. This replaces the results of
     /// the previous step. If the step fails there are no results, and the grid stays usable. A body that has not moved
     /// costs little more than reading its positions. In the steady state a step allocates no memory; but the first
-    /// search for a closest point in a body makes that body's tree, whenever that is, and vox_grid_reserve does not.
-    /// Errors: INVALID_STATE (a mesh without positions), NON_FINITE, LIMIT, INVALID_ARGUMENT (doubles read as floats; a
-    /// task system that broke its rules), BUDGET, OUT_OF_MEMORY. vox_grid_get_failure names the body.
+    /// search for a closest point in a body makes that body's tree, unless vox_grid_prepare did. Errors: INVALID_STATE
+    /// (a mesh without positions), NON_FINITE, LIMIT, INVALID_ARGUMENT (doubles read as floats; a task system that
+    /// broke its rules), BUDGET, OUT_OF_MEMORY. vox_grid_get_failure names the body.
     pub fn vox_grid_step(grid: *mut vox_grid) -> vox_result;
     /// Steps many different grids, several at a time: for many small scenes. worker_count and `tasks` are as in
     /// vox_grid_desc; each grid is stepped by one thread and should have a worker_count of 0 itself. If a grid fails,
@@ -1886,6 +1889,11 @@ extern "C" {
     /// Allocates memory for this many bodies and contacts in advance, besides what the bodies themselves need. Errors:
     /// LIMIT, BUDGET, OUT_OF_MEMORY.
     pub fn vox_grid_reserve(grid: *mut vox_grid, body_count: u32, contact_count: u64) -> vox_result;
+    /// Makes now what steps make of a mesh once, when they first need it: topology, rings, tiles of its surface and the
+    /// tree over that, as far as the flags, the margin and its filter ask for them. Meshes without positions are passed
+    /// over. It takes no room for results, and leaves the results of the last step as they are. Errors: NON_FINITE,
+    /// LIMIT, INVALID_ARGUMENT (doubles read as floats), BUDGET, OUT_OF_MEMORY.
+    pub fn vox_grid_prepare(grid: *mut vox_grid) -> vox_result;
     /// Sets vox_grid_desc.cell_size for the following steps. Errors: INVALID_ARGUMENT (negative, infinite, NaN).
     pub fn vox_grid_set_cell_size(grid: *mut vox_grid, cell_size: f64) -> vox_result;
     /// Sets vox_grid_desc.worker_count for the following steps. Errors: INVALID_ARGUMENT.
@@ -1988,10 +1996,10 @@ extern "C" {
         out_size: *mut u64,
     ) -> vox_result;
     /// Creates a grid from a snapshot. Ids name the same bodies, and steps give the same results. Meshes own their
-    /// positions; map or bind positions to move them. desc supplies what snapshots do not contain; its flags and
-    /// cell_size are ignored. The bytes need not be trusted. The caller owns *out_grid and releases it with
-    /// vox_grid_destroy. Errors: FORMAT (names the place), UNSUPPORTED (a later version), INVALID_ARGUMENT, LIMIT,
-    /// BUDGET, OUT_OF_MEMORY.
+    /// positions; map or bind positions to move them. desc supplies what snapshots do not contain; its flags, cell_size
+    /// and max_constraints_per_pair are ignored. The bytes need not be trusted. The caller owns *out_grid and releases
+    /// it with vox_grid_destroy. Errors: FORMAT (names the place), UNSUPPORTED (a later version), INVALID_ARGUMENT,
+    /// LIMIT, BUDGET, OUT_OF_MEMORY.
     pub fn vox_grid_load(
         bytes: *const c_void,
         size: u64,
@@ -2530,8 +2538,8 @@ layouts! {
     vox_positions: size [40, 40], alignment [8, 8], { data: [0, 0], count: [8, 8], format: [16, 16], reserved: [20, 20],
         byte_stride: [24, 24], component_byte_stride: [32, 32] }
     vox_grid_desc: size [72, 56], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], worker_count: [8, 8],
-        reserved: [12, 12], cell_size: [16, 16], margin: [24, 24], byte_budget: [32, 32], allocator: [40, 40],
-        log: [48, 44], tasks: [56, 48], reference: [64, 52] }
+        max_constraints_per_pair: [12, 12], cell_size: [16, 16], margin: [24, 24], byte_budget: [32, 32],
+        allocator: [40, 40], log: [48, 44], tasks: [56, 48], reference: [64, 52] }
     vox_filter: size [40, 40], alignment [8, 8], { flags: [0, 0], group: [4, 4], category: [8, 8], mask: [16, 16],
         world: [24, 24], self_rings: [28, 28], self_rest_distance: [32, 32] }
     vox_mesh_desc: size [152, 152], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], positions: [8, 8],
@@ -2544,7 +2552,7 @@ layouts! {
     vox_constraint: size [192, 192], alignment [8, 8], { body_a: [0, 0], body_b: [4, 4], kind: [8, 8], state: [12, 12],
         count_a: [16, 16], count: [20, 20], vertices: [24, 24], element_b: [44, 44], weights: [48, 48],
         normal: [88, 88], gap: [112, 112], offset: [120, 120], position: [128, 128], time: [152, 152],
-        user_data_a: [160, 160], user_data_b: [168, 168], pair: [176, 176], previous: [180, 180], reserved: [184, 184] }
+        user_data_a: [160, 160], user_data_b: [168, 168], pair: [176, 176], previous: [180, 180], left_out: [184, 184] }
     vox_constraint_desc: size [32, 32], alignment [8, 8], { struct_size: [0, 0], method: [4, 4], body_a: [8, 8],
         body_b: [12, 12], mask: [16, 16], closest_budget: [24, 24] }
     vox_constraint_view: size [32, 32], alignment [8, 8], { data: [0, 0], count: [8, 8], pair_offsets: [16, 16],

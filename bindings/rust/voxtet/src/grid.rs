@@ -183,6 +183,7 @@ impl Grid {
             cell_size: options.cell_size,
             byte_budget: options.byte_budget,
             margin: options.margin,
+            max_constraints_per_pair: options.max_constraints_per_pair,
             log: &log,
             tasks: &tasks,
             reference: or_null(&reference),
@@ -245,6 +246,11 @@ impl Grid {
     /// Takes memory for that many meshes and contacts in advance.
     pub fn reserve(&mut self, meshes: u32, contacts: u64) -> Result<()> {
         check(unsafe { sys::vox_grid_reserve(self.get_mut(), meshes, contacts) })
+    }
+
+    /// Makes now what steps make of a mesh once, when they first need it.
+    pub fn prepare(&mut self) -> Result<()> {
+        check(unsafe { sys::vox_grid_prepare(self.get_mut()) })
     }
 
     /// Sets the cell size of the following steps; 0: the library chooses.

@@ -93,6 +93,8 @@ pub struct GridOptions {
     pub workers: u32,
     /// See [`Grid::set_margin`](crate::Grid::set_margin).
     pub margin: f64,
+    /// Most constraints of a pair, the deepest one first, then spread; 0: all. A snapshot keeps it.
+    pub max_constraints_per_pair: u32,
     /// Whether every step finds constraints.
     pub constraints: bool,
     /// Whether it also finds edges that pass through faces. Experimental.
