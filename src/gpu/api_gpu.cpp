@@ -2,6 +2,7 @@
 #include "base/border.hpp"
 #include "base/structs.hpp"
 #include "gpu/pipeline.hpp"
+#include "gpu/upload.hpp"
 
 #include <vox/vox_gpu.h>
 

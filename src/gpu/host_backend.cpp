@@ -1,6 +1,5 @@
 #include "gpu/host_backend.hpp"
 
-#include "base/error.hpp"
 #include "gpu/stages.hpp"
 
 #include <algorithm>
@@ -135,11 +134,6 @@ private:
 
 std::unique_ptr<Backend> make_host_backend(const HostOrder& order) {
     return std::make_unique<HostBackend>(order);
-}
-
-std::unique_ptr<Backend> make_backend(int device) {
-    if (device == 0) return make_host_backend({});
-    throw Error(VOX_ERROR_UNSUPPORTED, format("there is no device %d: vox_gpu_host has 0 alone", device));
 }
 
 const char* take_phase_fault() { return first_fault.exchange(nullptr); }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "gpu/backend.hpp"
-#include "gpu/upload.hpp"
+#include "gpu/scene_data.hpp"
 
 #include <vector>
 

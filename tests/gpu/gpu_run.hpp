@@ -4,6 +4,7 @@
 #include "exact/predicates.hpp"
 #include "gpu/host_backend.hpp"
 #include "gpu/pipeline.hpp"
+#include "gpu/upload.hpp"
 
 #include "support/suite.h"
 

@@ -111,12 +111,21 @@ START_TEST(cells) {
     ck_ok(vox_grid_step(pair.grid));
     const WeighedContacts expected = expected_contacts(pair.grid);
     ck_assert_uint_gt(expected.size(), 20);
+    // Tiles that are long and thin meet few cells, some of which are in one slot.
+    std::vector<body> bodies = {ball(3, 1), ball(3, 2, 2, 1, 1)};
+    for (body& b : bodies) for_each_position(b, [](float* p) { p[0] *= 16; });
+    OwnedGrid stretched(std::move(bodies));
+    ck_ok(vox_grid_step(stretched.grid));
+    const WeighedContacts expected_of_stretched = expected_contacts(stretched.grid);
     gpu::u32 levels = 0;
-    for (const double cell_size : {1e-3, 1e-2, 0.1, 0.5, 1.0, 2.0, 10.0, 1e3})
+    for (const double cell_size : {1e-3, 1e-2, 0.1, 0.5, 1.0, 2.0, 4.0, 10.0, 1e3})
         for (const gpu::u64 bricks : {gpu::u64{0}, gpu::u64{1}, gpu::u64{8}}) {
             HostScenes scenes({pair.grid}, orders[1], cell_size, {0, 0, 0, bricks});
             levels |= scenes.step_completely().levels;
             check_contacts(expected, scenes.contacts(0), "cells");
+            HostScenes thin({stretched.grid}, orders[1], cell_size, {0, 0, 0, bricks});
+            thin.step_completely();
+            check_contacts(expected_of_stretched, thin.contacts(0), "cells of thin tiles");
         }
     ck_assert_uint_gt(levels, 7); // several of them, and those in which cells are larger
 }
