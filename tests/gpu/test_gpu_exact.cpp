@@ -2,10 +2,12 @@
 #include "exact/float_weights.hpp"
 #include "exact/predicates.hpp"
 #include "exact/volume_sign.hpp"
+#include "gpu/kernels/look_up.hpp"
 
 #include "scenes/random.h"
 #include "support/suite.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string.h>
@@ -116,7 +118,45 @@ START_TEST(weights) {
 }
 END_TEST
 
+// Single precision says nothing that is not so, where its products underflow or overflow, too.
+START_TEST(separation) {
+    std::uint64_t seed = 13;
+    std::uint64_t of[3] = {};
+    for (int power = -148; power <= 126; power += std::abs(power + 43) < 12 ? 1 : 16)
+        for (std::uint64_t round = 0; round < 300 * test_volume(); ++round) {
+            float v[4][3], p[3];
+            gpu::FloatBox box;
+            std::array<Vec3d, 5> q;
+            for (int a = 0; a < 3; ++a) {
+                for (int k = 0; k < 4; ++k)
+                    v[k][a] = static_cast<float>(std::ldexp(random_symmetric(&seed), power));
+                p[a] = static_cast<float>(std::ldexp(random_symmetric(&seed), power));
+                if (round % 3 == 0) p[a] = 0.5f * (v[0][a] + v[1][a]); // nearly on an edge
+                if (round % 3 == 1) p[a] = 0.25f * (v[0][a] + v[1][a]) + 0.25f * (v[2][a] + v[3][a]);
+                box.lo[a] = std::min({v[0][a], v[1][a], v[2][a], v[3][a]});
+                box.hi[a] = std::max({v[0][a], v[1][a], v[2][a], v[3][a]});
+                p[a] = std::min(std::max(p[a], box.lo[a]), box.hi[a]);
+            }
+            for (std::size_t k = 0; k < 5; ++k) {
+                const float* c = k < 4 ? v[k] : p;
+                q[k] = Vec3d{double{c[0]}, double{c[1]}, double{c[2]}};
+            }
+            const gpu::Separation says = gpu::separate(v, p, gpu::underflow_bound(box));
+            ++of[static_cast<int>(says)];
+            std::uint64_t exact_tests = 0;
+            const Containment where = locate(q[4], q[0], q[1], q[2], q[3], exact_tests);
+            ck_assert_msg(says != gpu::Separation::apart || where == Containment::outside,
+                          "2^%d: is not outside", power);
+            ck_assert_msg(says != gpu::Separation::inside || where == Containment::interior,
+                          "2^%d: is not inside", power);
+        }
+    ck_assert_msg(of[0] > 1000 && of[1] > 1000 && of[2] > 1000, "%llu apart, %llu open, %llu inside",
+                  static_cast<unsigned long long>(of[0]), static_cast<unsigned long long>(of[1]),
+                  static_cast<unsigned long long>(of[2]));
+}
+END_TEST
+
 SUITE(gpu_exact) {
     TCase* tests = add_case(suite, "against integers");
-    tcase_add_each(tests, signs, weights);
+    tcase_add_each(tests, separation, signs, weights);
 }
