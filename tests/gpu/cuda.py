@@ -124,7 +124,8 @@ def main():
         print(f"{architecture:7} {kernel:14} {registers:3} registers, stack {stack}, spilled {spilled}")
     print(f"libvox_cuda.so: {size} bytes")
     faults = list(faults_of(kernels, ptx_of(command), size))
-    sys.exit("\n".join(faults))
+    if faults:
+        sys.exit("\n".join(faults))
 
 
 if __name__ == "__main__":
