@@ -44,6 +44,7 @@ PARTS = {
     "reference": ("./dev reference && python3 -B docs/reference/build.py --self-test", "the reference pages"),
     "hashes": ("./dev hashes", "hashes of all scenes by gcc and clang at -O0 and -O2"),
     "cross": ("./dev cross", "the same on Arm and WebAssembly; packages builds for the other platforms of the wheels"),
+    "cuda": ("./dev cuda", "the kernels of src/gpu compiled for NVIDIA's GPUs: no fused operation, no spill"),
     "windows-gcc": ("./dev windows gcc", "MinGW-w64's gcc, tests under Wine"),
     "windows-clang": ("./dev windows clang", "the same by clang"),
     "packages": ("./dev packages", "every package built, installed into a fresh place, and used"),

@@ -75,6 +75,7 @@ NAVIGATION = [
             "docs/memory.md",
             "docs/snapshot.md",
             "docs/distributed.md",
+            "docs/gpu.md",
         ]
     },
     {
@@ -115,6 +116,7 @@ NAVIGATION = [
             "docs/evidence/surface-pairs.md",
             "docs/evidence/locate.md",
             "docs/evidence/distributed.md",
+            "docs/evidence/gpu.md",
             "docs/evidence/limits.md",
             {"Benchmarks": "bench/README.md"},
             {"Tried for speed": "bench/TRIED.md"},

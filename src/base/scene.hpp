@@ -114,7 +114,7 @@ struct PairFilter {
 
     bool operator==(const PairFilter&) const = default;
 };
-inline bool collide(const PairFilter& a, const PairFilter& b) noexcept {
+constexpr bool collide(const PairFilter& a, const PairFilter& b) noexcept {
     if (a.world != b.world) return false;
     if (a.group != 0 && a.group == b.group) return a.group > 0;
     return (a.category & b.mask) != 0 && (b.category & a.mask) != 0;

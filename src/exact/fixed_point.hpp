@@ -6,6 +6,7 @@
 // an axis. With differences below 2^61, minors are at most 2^123.
 #pragma once
 
+#include "base/device.hpp"
 #include "base/vectors.hpp"
 
 #include <algorithm>
@@ -25,7 +26,7 @@ __extension__ using Int128 = __int128;
 struct FixedVolume {
     Int128 high, low;
 
-    int sign() const {
+    VOX_HD int sign() const {
         const Int128 top = high + (low >> 64);
         if (top != 0) return top > 0 ? 1 : -1;
         return static_cast<std::uint64_t>(low) != 0 ? 1 : 0;
@@ -37,7 +38,7 @@ class FixedPoints {
 public:
     // False if the coordinates differ too much in size; the points are unspecified then. Reads the bits of
     // the coordinates, so the floating-point environment does not matter.
-    bool read(const std::array<const Vec3d*, Count>& points) {
+    VOX_HD bool read(const std::array<const Vec3d*, Count>& points) {
         std::uint64_t lost = 0;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             std::uint64_t bits[Count], largest = 1; // stored exponent, at least that of denormals
@@ -60,7 +61,7 @@ public:
     }
 
     // det[b-a, c-a, d-a]
-    FixedVolume volume(std::size_t a, std::size_t b, std::size_t c, std::size_t d) const {
+    VOX_HD FixedVolume volume(std::size_t a, std::size_t b, std::size_t c, std::size_t d) const {
         std::int64_t u[3], v[3], w[3];
         for (std::size_t axis = 0; axis < 3; ++axis) {
             u[axis] = at_[b][axis] - at_[a][axis];
@@ -75,10 +76,10 @@ public:
     }
 
 private:
-    static Int128 minor(const std::int64_t* u, const std::int64_t* v) {
+    VOX_HD static Int128 minor(const std::int64_t* u, const std::int64_t* v) {
         return Int128{u[0]} * v[1] - Int128{v[0]} * u[1];
     }
-    static void add(Int128 minor, std::int64_t factor, FixedVolume& sum) {
+    VOX_HD static void add(Int128 minor, std::int64_t factor, FixedVolume& sum) {
         sum.high += Int128{static_cast<std::int64_t>(minor >> 64)} * factor;
         sum.low += Int128{static_cast<std::uint64_t>(minor)} * factor;
     }

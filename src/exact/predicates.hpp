@@ -12,6 +12,7 @@
 // the bound covers that.
 #pragma once
 
+#include "base/device.hpp"
 #include "base/vectors.hpp"
 
 #include <array>
@@ -35,7 +36,7 @@ struct BoundedVolume {
     double volume;
     double error; // at least underflow_error
 
-    bool certain() const { return volume > error || -volume > error; }
+    VOX_HD bool certain() const { return volume > error || -volume > error; }
 };
 
 // The orientation of points whose volume is not certain. Counts an exact test, unless the volume is
@@ -49,14 +50,14 @@ struct Minor {
     double magnitude;
 };
 
-inline Minor minor(const Vec3d& u, const Vec3d& v) {
+VOX_HD Minor minor(const Vec3d& u, const Vec3d& v) {
     const double left = u.x * v.y;
     const double right = v.x * u.y;
     return {left - right, std::abs(left) + std::abs(right)};
 }
 
 // det[u, v, w], expanded by the z coordinates, from the minors of the other two coordinates.
-inline BoundedVolume determinant(double uz, const Minor& vw, double vz, const Minor& uw, double wz,
+VOX_HD BoundedVolume determinant(double uz, const Minor& vw, double vz, const Minor& uw, double wz,
                                  const Minor& uv) {
     constexpr double epsilon = 0x1p-53;
     constexpr double bound = (7.0 + 56.0 * epsilon) * epsilon;
@@ -66,7 +67,7 @@ inline BoundedVolume determinant(double uz, const Minor& vw, double vz, const Mi
 }
 
 // det[b-a, c-a, d-a]
-inline BoundedVolume bounded_volume(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
+VOX_HD BoundedVolume bounded_volume(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
     const Vec3d u = b - a, v = c - a, w = d - a;
     return determinant(u.z, minor(v, w), v.z, minor(u, w), w.z, minor(u, v));
 }
@@ -124,7 +125,7 @@ enum class Containment : std::uint8_t {
 
 // Six times the volumes of abcd with one corner replaced by p. They add up to that of abcd; divided by it,
 // they are the barycentric coordinates of p.
-inline std::array<BoundedVolume, 4> corner_volumes(const Vec3d& p, const Vec3d& a, const Vec3d& b,
+VOX_HD std::array<BoundedVolume, 4> corner_volumes(const Vec3d& p, const Vec3d& a, const Vec3d& b,
                                                    const Vec3d& c, const Vec3d& d) {
     const Vec3d u = a - p, v = b - p, w = c - p, x = d - p;
     const Minor uv = minor(u, v), uw = minor(u, w), ux = minor(u, x);
@@ -139,10 +140,12 @@ inline std::array<BoundedVolume, 4> corner_volumes(const Vec3d& p, const Vec3d& 
 
 // Like locate(), but for a tetrahedron of non-zero volume, and from its corner volumes. These add up to its
 // volume, so p is in the closed tetrahedron exactly if no two of them have opposite signs, for either
-// winding.
-inline Containment locate_in_solid(const std::array<BoundedVolume, 4>& volumes, const Vec3d& p,
+// winding. settle(volume, i) is the orientation for a volume that is not certain: of abcd with corner i
+// replaced by p.
+template <class Settle>
+VOX_HD Containment locate_in_solid(const std::array<BoundedVolume, 4>& volumes, const Vec3d& p,
                                    const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d,
-                                   std::uint64_t& exact_tests) {
+                                   Settle& settle) {
     int above = 0, below = 0;
     for (const BoundedVolume& v : volumes) {
         above += v.volume > v.error;
@@ -156,8 +159,7 @@ inline Containment locate_in_solid(const std::array<BoundedVolume, 4>& volumes, 
     if (above + below == 1 && (is_p(a) || is_p(b) || is_p(c) || is_p(d))) return Containment::boundary;
     for (int i = 0; i < 4; ++i) {
         if (volumes[std::size_t(i)].certain()) continue;
-        const int sign = uncertain_orientation(volumes[std::size_t(i)], i == 0 ? p : a, i == 1 ? p : b,
-                                               i == 2 ? p : c, i == 3 ? p : d, exact_tests);
+        const int sign = settle(volumes[std::size_t(i)], i);
         positive |= sign > 0;
         negative |= sign < 0;
         zero |= sign == 0;
@@ -167,19 +169,48 @@ inline Containment locate_in_solid(const std::array<BoundedVolume, 4>& volumes, 
     return zero ? Containment::boundary : Containment::interior;
 }
 
+// Where p lies with respect to the closed tetrahedron abcd, of either winding. settle(volume, 4) is the
+// orientation of abcd.
+template <class Settle>
+VOX_HD Containment locate_by(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d,
+                             Settle& settle) {
+    const Containment in_solid = locate_in_solid(corner_volumes(p, a, b, c, d), p, a, b, c, d, settle);
+    if (in_solid != Containment::outside) return in_solid;
+    const BoundedVolume volume = bounded_volume(a, b, c, d);
+    if (volume.certain() || settle(volume, 4) != 0) return Containment::outside;
+    return Containment::degenerate; // four volumes of both signs that cancel
+}
+
+#if !defined(__CUDACC__)
+// Settles what is not certain by uncertain_orientation().
+struct CountedSettling {
+    const Vec3d &p, &a, &b, &c, &d;
+    std::uint64_t& exact_tests;
+
+    int operator()(const BoundedVolume& volume, int i) {
+        return uncertain_orientation(volume, i == 0 ? p : a, i == 1 ? p : b, i == 2 ? p : c, i == 3 ? p : d,
+                                     exact_tests);
+    }
+};
+
+inline Containment locate_in_solid(const std::array<BoundedVolume, 4>& volumes, const Vec3d& p,
+                                   const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d,
+                                   std::uint64_t& exact_tests) {
+    CountedSettling settle{p, a, b, c, d, exact_tests};
+    return locate_in_solid(volumes, p, a, b, c, d, settle);
+}
+
 inline Containment locate_in_solid(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c,
                                    const Vec3d& d, std::uint64_t& exact_tests) {
     return locate_in_solid(corner_volumes(p, a, b, c, d), p, a, b, c, d, exact_tests);
 }
 
-// Where p lies with respect to the closed tetrahedron abcd, of either winding.
 inline Containment locate(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d,
                           std::uint64_t& exact_tests) {
-    const Containment in_solid = locate_in_solid(p, a, b, c, d, exact_tests);
-    if (in_solid == Containment::outside && orientation(a, b, c, d, exact_tests) == 0)
-        return Containment::degenerate; // four volumes of both signs that cancel
-    return in_solid;
+    CountedSettling settle{p, a, b, c, d, exact_tests};
+    return locate_by(p, a, b, c, d, settle);
 }
+#endif
 
 // Barycentric coordinates of any point, each rounded to double once. Slow: see exact/accurate.hpp.
 std::array<double, 4> exact_weights(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c,

@@ -22,7 +22,8 @@ LEVELS = [
 # Edges allowed inside one level: none.
 SIDEWAYS = set()
 # Libraries of their own, over the public headers, each with the core's folders that it may include.
-BESIDE = {"io": {"base", "exact"}, "sim": {"base"}, "dist": {"base", "exact"}, "mpi": {"base"}}
+BESIDE = {"io": {"base", "exact"}, "sim": {"base"}, "dist": {"base", "exact"}, "mpi": {"base"},
+          "gpu": {"base", "exact", "mesh"}}
 
 TOP_OF_SRC = {"CMakeLists.txt", "README.md", "vox.map"}
 MOST_LINES_OF_README = 80
@@ -73,7 +74,7 @@ def faults(root):
                 found.append(f"src/{name}/: a folder that tests/layout/test_layout.py does not list")
         elif name not in TOP_OF_SRC:
             found.append(f"src/{name}: only {', '.join(sorted(TOP_OF_SRC))} are at the top of src/")
-    for path in files(".cpp", ".hpp", ".h", ".c", under="src", root=root):
+    for path in files(".cpp", ".cu", ".hpp", ".h", ".c", under="src", root=root):
         if path.count("/") < 2:
             continue
         text = text_of(path, root).splitlines()
