@@ -12,7 +12,7 @@ INSIDE = {"docs/abi.md", "docs/cost-models.md", "docs/depth-method.md", "docs/en
 REFERENCE = {"docs/command-line.md", "docs/file-formats.md", "docs/install.md", "docs/limits.md"}
 MOST_LINES_OF_README = 130
 MOST_WORDS = 1500  # of a page
-MOST_WORDS_IN_ALL = 22600
+MOST_WORDS_IN_ALL = 23600
 LONG = 35  # words of a sentence
 # Per 1,000 words of all pages for users. When the pages get better, the test asks for a lower ceiling.
 CEILINGS = {"stand-ins for nouns": 0, "long sentences": 0, "figures": 9.3}
