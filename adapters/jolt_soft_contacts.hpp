@@ -1,14 +1,14 @@
-// Contacts between soft bodies of Jolt Physics (https://github.com/jrouwe/JoltPhysics), which has none of its own. Header
-// only, C++17 without exceptions and RTTI, as Jolt is; link vox::vox and vox::io. Tried with Jolt 5.5.1 (commit
-// 3b47ec39, 2026-06-30); CI tests it against a stand-in of what it uses.
+// Contacts between soft bodies of Jolt Physics (https://github.com/jrouwe/JoltPhysics), which has none of its
+// own. Header only, C++17 without exceptions and RTTI, as Jolt is; link vox::vox and vox::io. Tried with
+// Jolt 5.5.1 (commit 3b47ec39, 2026-06-30); CI tests it against a stand-in of what it uses.
 //
 //     #include <vox/adapters/jolt_soft_contacts.hpp>
 //     vox::JoltSoftContacts contacts(physics_system); // listens to its steps
 //     contacts.add(body_id);                          // for each soft body, while the system is not updated
 //
-// Before each step of the system, vertices inside another soft body, edges that cross, and vertices within a margin
-// get impulses that end their approach, with friction, and are moved out. Linear and angular momentum of the bodies
-// together are kept, and results do not depend on the number of threads.
+// Before each step of the system, vertices inside another soft body, edges that cross, and vertices within a
+// margin get impulses that end their approach, with friction, and are moved out. Linear and angular momentum
+// of the bodies together are kept, and results do not depend on the number of threads.
 #pragma once
 
 #include <Jolt/Jolt.h>
@@ -37,12 +37,13 @@
 namespace vox {
 
 struct JoltSoftContactSettings {
-    double margin = 0.02;    // in metres: vertices this close are kept from getting in
-    double stiffness = 0.9;  // share of an impulse that moves the whole body as if it were rigid; the rest, its vertices
-    double push = 0.2;       // share of a depth that a step takes away,
-    double push_speed = 1;   // but at most so many metres in a second
-    double foresight = 0.8;  // share of what drew contacts together within the last step that this step makes up for
-    int iterations = 8;      // over all contacts of a step
+    double margin = 0.01;    // in metres: vertices this close are kept from getting in
+    double stiffness = 0.98; // share of an impulse that moves the whole body as if it were rigid
+    double foresight =
+        0.9;           // share of what drew contacts together in the last step that this one makes up for
+    double push = 0.5; // share of a depth that a step takes away,
+    double push_speed = 0.5;        // but at most so many metres in a second
+    int iterations = 8;             // over all contacts of a step
     std::uint32_t worker_count = 1; // threads that look for contacts; VOX_ALL_CORES
 };
 
@@ -63,22 +64,24 @@ public:
     JoltSoftContacts(const JoltSoftContacts&) = delete;
     JoltSoftContacts& operator=(const JoltSoftContacts&) = delete;
 
-    // Takes a soft body of the system in. Its tetrahedra are the given ones (four vertices each), else its volume
-    // constraints, else a filling of its faces, which have to be closed. A body that leaves the system is forgotten.
-    // VOX_OK, or an error that vox_last_error describes.
-    vox_result add(const JPH::BodyID& id, std::vector<std::uint32_t> tets = {}, const vox_filter& filter = {}) {
+    // Takes a soft body of the system in. Its tetrahedra are the given ones (four vertices each), else its
+    // volume constraints, else a filling of its faces, which have to be closed. A body that leaves the system
+    // is forgotten. VOX_OK, or an error that vox_last_error describes.
+    vox_result add(const JPH::BodyID& id, std::vector<std::uint32_t> tets = {},
+                   const vox_filter& filter = {}) {
         if (!grid_) return result_;
-        JPH::Body* body = system_.GetBodyLockInterfaceNoLock().TryGetBody(id);
-        if (!body || !body->IsSoftBody()) return VOX_ERROR_INVALID_HANDLE;
         Soft soft;
         soft.id = id;
-        soft.body = body;
-        const JPH::SoftBodySharedSettings& shared = *properties(*body).GetSettings();
+        soft.body = system_.GetBodyLockInterfaceNoLock().TryGetBody(id);
+        if (!soft.body || !soft.body->IsSoftBody()) return VOX_ERROR_INVALID_HANDLE;
+        const JPH::SoftBodyMotionProperties& properties = properties_of(soft);
         if (tets.empty())
-            for (const auto& volume : shared.mVolumeConstraints)
+            for (const auto& volume : properties.GetSettings()->mVolumeConstraints)
                 tets.insert(tets.end(), std::begin(volume.mVertex), std::end(volume.mVertex));
         if (tets.empty())
-            if (const vox_result result = fill(soft, *body, tets)) return result;
+            if (const vox_result result = fill(soft, tets)) return result;
+        place(soft);
+        remember(soft);
         vox_mesh_desc desc = vox_default_mesh_desc();
         desc.positions = positions_of(soft);
         desc.tets = tets.data();
@@ -90,7 +93,8 @@ public:
         return VOX_OK;
     }
 
-    // What the last step found, for sounds or pictures: user_data of a body is its place in the order of `add`.
+    // What the last step found, for sounds or pictures: user_data of a body is its place in the order of
+    // `add`.
     const vox_grid* grid() const { return grid_.get(); }
 
     // Of the last step. A step that fails, e.g. by a position that is not finite, gives no impulses.
@@ -116,35 +120,36 @@ private:
         double weight;
     };
 
-    // A change of velocity, or of place, of a body as if it were rigid.
+    // What contacts change: a body as if it were rigid, and each vertex beyond that.
+    enum Change : std::size_t { VELOCITY, PLACE };
+
     struct Motion {
-        Vector linear, angular;
+        Vector linear{}, angular{};
     };
 
     struct Soft {
         JPH::BodyID id;
-        vox_body mesh = VOX_NULL_BODY;
         JPH::Body* body = nullptr;
-        const void* bound = nullptr;         // the positions that the grid borrows
-        std::vector<std::uint32_t> first;    // of a filling: where the shares of its vertices begin
+        vox_body mesh = VOX_NULL_BODY;
+        std::vector<JPH::Real> world;     // positions of the mesh
+        std::vector<std::uint32_t> first; // of a filling: where the shares of its vertices begin
         std::vector<Share> shares;
-        std::vector<double> filling;         // positions of a filling
-        std::vector<std::uint32_t> particle; // of each vertex in contact
         std::vector<JPH::Vec3> left;         // velocities with which the last step began
-        bool touched = false;
-        // Of the body as if it were rigid, in world axes:
+        std::vector<std::uint32_t> particle; // of each vertex in contact
+        bool touched = false, fixed = false; // in contact; with vertices that never move
+        // The body as if it were rigid. The axes are the columns of its rotation; all else is in world axes,
+        // or, of the centre, from its origin.
         Matrix axes{}, inverse_inertia{};
-        Vector centre{};
-        double inverse_mass = 0, softness = 1;
-        Motion impulse{}, move{};
+        Vector origin{}, centre{};
+        double inverse_mass = 0;
+        Motion changes[2];
     };
 
-    // A vertex in contact: its velocity, how much Jolt changed that in the last step, and how it is changed now.
+    // A vertex in contact: its velocity, and how much Jolt changed that in the last step.
     struct Particle {
-        std::uint32_t soft, vertex;
-        double inverse_mass;
         Vector velocity, drawn;
-        Vector impulse{}, move{};
+        double inverse_mass[2];
+        Vector changes[2];
     };
 
     struct Entry {
@@ -154,18 +159,29 @@ private:
 
     // A constraint, and how much it has given so far.
     struct Row {
-        std::size_t begin, end; // entries_
-        Soft *a, *b;
-        Vector normal, arm_a, arm_b, velocity;
-        double gap, wanted, inverse_mass, inverse_drag, friction;
-        double impulse, push;
-        Vector drag;
+        std::size_t begin = 0, end = 0; // of its entries
+        Soft *a = nullptr, *b = nullptr;
+        Vector normal{}, arm_a{}, arm_b{}, velocity{};
+        double gap = 0, wanted = 0, friction = 0, inverse_mass[2] = {}, inverse_drag = 0;
+        double given[2] = {};
+        Vector drag{};
     };
 
-    static JPH::SoftBodyMotionProperties& properties(JPH::Body& body) {
-        return *static_cast<JPH::SoftBodyMotionProperties*>(body.GetMotionPropertiesUnchecked());
+    static JPH::SoftBodyMotionProperties& properties_of(const Soft& soft) {
+        return *static_cast<JPH::SoftBodyMotionProperties*>(soft.body->GetMotionPropertiesUnchecked());
     }
-    static Vector vector(JPH::Vec3Arg v) {
+    static vox_positions positions_of(const Soft& soft) {
+        return positions_of(soft.world.data(), soft.world.size() / 3);
+    }
+    static vox_positions positions_of(const float* xyz, std::size_t count) {
+        return vox_float_positions(xyz, count);
+    }
+    static vox_positions positions_of(const double* xyz, std::size_t count) {
+        return vox_double_positions(xyz, count);
+    }
+
+    template <typename Three> // JPH::Vec3 or RVec3
+    static Vector vector(const Three& v) {
         return {static_cast<double>(v.GetX()), static_cast<double>(v.GetY()), static_cast<double>(v.GetZ())};
     }
     static double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -178,19 +194,31 @@ private:
     static Vector times(const Matrix& m, const Vector& v) {
         return sum(sum(sum({}, v[0], m[0]), v[1], m[1]), v[2], m[2]);
     }
+    // Of a symmetric matrix: 0 if it is singular.
+    static Matrix inverse(const Matrix& m) {
+        Matrix i = {cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])};
+        const double determinant = dot(m[0], i[0]), size = m[0][0] + m[1][1] + m[2][2];
+        for (Vector& column : i)
+            column = sum({}, determinant > 1e-12 * size * size * size ? 1 / determinant : 0, column);
+        return i;
+    }
     static JPH::Vec3 to_local(const Soft& soft, const Vector& v) {
         return JPH::Vec3(static_cast<float>(dot(soft.axes[0], v)), static_cast<float>(dot(soft.axes[1], v)),
                          static_cast<float>(dot(soft.axes[2], v)));
     }
 
     // Fills the faces of a body with tetrahedra, whose vertices move with those of the body.
-    static vox_result fill(Soft& soft, JPH::Body& body, std::vector<std::uint32_t>& tets) {
+    static vox_result fill(Soft& soft, std::vector<std::uint32_t>& tets) {
         std::vector<double> at;
-        for (const JPH::SoftBodyVertex& v : properties(body).GetVertices())
+        for (const JPH::SoftBodyVertex& v : properties_of(soft).GetVertices())
             for (const double x : vector(v.mPosition)) at.push_back(x);
         std::vector<std::uint32_t> triangles;
-        for (const auto& face : properties(body).GetSettings()->mFaces)
+        double edges = 0;
+        for (const auto& face : properties_of(soft).GetSettings()->mFaces) {
             triangles.insert(triangles.end(), std::begin(face.mVertex), std::end(face.mVertex));
+            const double *a = &at[3 * face.mVertex[0]], *b = &at[3 * face.mVertex[1]];
+            edges += std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+        }
         vox_io_mesh_view mesh{};
         mesh.positions = at.data();
         mesh.vertex_count = at.size() / 3;
@@ -198,13 +226,12 @@ private:
         mesh.triangle_count = triangles.size() / 3;
         vox_io_mesh *surface = nullptr, *solid = nullptr;
         vox_io_tetrahedralize_desc desc = vox_default_io_tetrahedralize_desc();
-        desc.cell = mean_edge(at, triangles);
+        desc.cell = mesh.triangle_count ? edges / static_cast<double>(mesh.triangle_count) : 0;
         vox_result result = vox_io_mesh_create(&mesh, &surface);
         if (result == VOX_OK) result = vox_io_tetrahedralize(surface, &desc, &solid);
         if (result == VOX_OK) result = vox_io_mesh_get_arrays(solid, &mesh);
         if (result == VOX_OK) {
             tets.assign(mesh.tets, mesh.tets + 4 * mesh.tet_count);
-            soft.filling.resize(3 * mesh.vertex_count);
             soft.first.push_back(0);
             for (const double* x = mesh.positions; x != mesh.positions + 3 * mesh.vertex_count; x += 3)
                 share_out(soft, at, {x[0], x[1], x[2]});
@@ -214,100 +241,80 @@ private:
         return result;
     }
 
-    static double mean_edge(const std::vector<double>& at, const std::vector<std::uint32_t>& triangles) {
-        double sum = 0;
-        for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
-            const double *a = &at[3 * triangles[i]], *b = &at[3 * triangles[i + 1]];
-            sum += std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
-        }
-        return triangles.empty() ? 0 : 3 * sum / static_cast<double>(triangles.size());
-    }
-
-    // Weights of vertices for a point: the least squares of those that sum up to 1 and to the point, each measured by the
-    // square of its vertex's distance. So a filling turns, shears and stretches as its body does (J. Warren and others use
-    // such weights under the name of moving least squares; D. Shepard, 1968, the distances).
+    // Weights of a body's vertices for a point, by moving least squares (P. Lancaster and K. Salkauskas,
+    // 1981): they sum up to 1 and to the point, so that a filling turns, shears and stretches as its body
+    // does.
     static void share_out(Soft& soft, const std::vector<double>& at, const Vector& point) {
-        const std::size_t count = at.size() / 3;
-        std::vector<double> nearness(count);
-        double system[4][5] = {};
-        for (std::size_t i = 0; i < count; ++i) {
-            const double row[4] = {1, at[3 * i] - point[0], at[3 * i + 1] - point[1], at[3 * i + 2] - point[2]};
-            const double square = row[1] * row[1] + row[2] * row[2] + row[3] * row[3];
-            nearness[i] = 1 / (square * square + 1e-24);
-            for (int r = 0; r < 4; ++r)
-                for (int c = 0; c < 4; ++c) system[r][c] += nearness[i] * row[r] * row[c];
+        std::vector<double> nearness;
+        double total = 0;
+        Vector mean{};
+        for (std::size_t i = 0; i < at.size(); i += 3) {
+            const Vector x = {at[i], at[i + 1], at[i + 2]}, to = sum(x, -1, point);
+            nearness.push_back(1 / (dot(to, to) * dot(to, to) + 1e-24));
+            total += nearness.back();
+            mean = sum(mean, nearness.back(), x);
         }
-        system[0][4] = 1;
-        solve(system);
-        for (std::size_t i = 0; i < count; ++i) {
-            const double weight = nearness[i] * (system[0][4] + system[1][4] * (at[3 * i] - point[0]) +
-                                                 system[2][4] * (at[3 * i + 1] - point[1]) +
-                                                 system[3][4] * (at[3 * i + 2] - point[2]));
-            if (std::abs(weight) > 1e-3) soft.shares.push_back({static_cast<std::uint32_t>(i), weight});
+        mean = sum({}, 1 / total, mean);
+        Matrix spread{};
+        for (std::size_t i = 0; i < at.size(); i += 3) {
+            const Vector to = sum({at[i], at[i + 1], at[i + 2]}, -1, mean);
+            for (std::size_t k = 0; k < 3; ++k)
+                spread[k] = sum(spread[k], nearness[i / 3] / total * to[k], to);
         }
-        double sum = 0;
-        for (std::size_t s = soft.first.back(); s < soft.shares.size(); ++s) sum += soft.shares[s].weight;
-        for (std::size_t s = soft.first.back(); s < soft.shares.size(); ++s) soft.shares[s].weight /= sum;
+        const Vector slope = times(inverse(spread), sum(point, -1, mean));
+        const std::size_t begin = soft.shares.size();
+        double kept = 0;
+        for (std::size_t i = 0; i < at.size(); i += 3) {
+            const Vector to = sum({at[i], at[i + 1], at[i + 2]}, -1, mean);
+            const double weight = nearness[i / 3] / total * (1 + dot(to, slope));
+            if (std::abs(weight) < 1e-3) continue;
+            soft.shares.push_back({static_cast<std::uint32_t>(i / 3), weight});
+            kept += weight;
+        }
+        for (std::size_t s = begin; s < soft.shares.size(); ++s) soft.shares[s].weight /= kept;
         soft.first.push_back(static_cast<std::uint32_t>(soft.shares.size()));
     }
 
-    // Gauss's elimination with the largest pivots.
-    static void solve(double (&a)[4][5]) {
-        for (int k = 0; k < 4; ++k) {
-            int pivot = k;
-            for (int r = k; r < 4; ++r)
-                if (std::abs(a[r][k]) > std::abs(a[pivot][k])) pivot = r;
-            for (int c = 0; c < 5; ++c) std::swap(a[k][c], a[pivot][c]);
-            if (a[k][k] == 0) continue;
-            for (int r = 0; r < 4; ++r) {
-                const double factor = r == k ? 0 : a[r][k] / a[k][k];
-                for (int c = k; c < 5; ++c) a[r][c] -= factor * a[k][c];
-            }
+    // Where the body and its mesh are.
+    static void place(Soft& soft) {
+        const auto& vertices = properties_of(soft).GetVertices();
+        const JPH::RMat44 m = soft.body->GetCenterOfMassTransform();
+        for (JPH::uint k = 0; k < 3; ++k) soft.axes[k] = vector(m.GetColumn3(k));
+        soft.origin = vector(m.GetTranslation());
+        const std::size_t count = soft.first.empty() ? vertices.size() : soft.first.size() - 1;
+        soft.world.resize(3 * count);
+        for (std::size_t i = 0; i < count; ++i) {
+            Vector at{};
+            if (soft.first.empty())
+                at = vector(vertices[i].mPosition);
+            else
+                for (std::uint32_t s = soft.first[i]; s < soft.first[i + 1]; ++s)
+                    at = sum(at, soft.shares[s].weight, vector(vertices[soft.shares[s].vertex].mPosition));
+            at = sum(soft.origin, 1, times(soft.axes, at));
+            for (std::size_t k = 0; k < 3; ++k) soft.world[3 * i + k] = static_cast<JPH::Real>(at[k]);
         }
-        for (int k = 0; k < 4; ++k) a[k][4] = a[k][k] == 0 ? 0 : a[k][4] / a[k][k];
     }
 
-    // Jolt's own array or, of a filling, its positions now.
-    static vox_positions positions_of(Soft& soft) {
-        const auto& vertices = properties(*soft.body).GetVertices();
-        vox_positions positions{};
-        if (soft.first.empty()) {
-            positions.data = &vertices[0].mPosition;
-            positions.count = vertices.size();
-            positions.byte_stride = sizeof vertices[0];
-        } else {
-            std::fill(soft.filling.begin(), soft.filling.end(), 0.0);
-            for (std::size_t i = 0; i + 1 < soft.first.size(); ++i)
-                for (std::uint32_t s = soft.first[i]; s < soft.first[i + 1]; ++s) {
-                    const Vector at = vector(vertices[soft.shares[s].vertex].mPosition);
-                    for (std::size_t k = 0; k < 3; ++k) soft.filling[3 * i + k] += soft.shares[s].weight * at[k];
-                }
-            positions = vox_double_positions(soft.filling.data(), soft.filling.size() / 3);
-        }
-        soft.bound = positions.data;
-        return positions;
+    static void remember(Soft& soft) {
+        soft.left.clear();
+        for (const JPH::SoftBodyVertex& v : properties_of(soft).GetVertices())
+            soft.left.push_back(v.mVelocity);
     }
 
     // Tells the grid where the bodies are, and finds their contacts.
     vox_result find() {
         for (Soft& soft : bodies_) {
             soft.body = system_.GetBodyLockInterfaceNoLock().TryGetBody(soft.id);
-            if (!soft.body) {
-                if (vox_body_is_valid(grid_.get(), soft.mesh)) vox_body_remove(grid_.get(), soft.mesh);
-                continue;
+            if (!vox_body_is_valid(grid_.get(), soft.mesh)) continue;
+            if (soft.body) {
+                place(soft);
+                const bool there = soft.body->IsInBroadPhase();
+                if (const vox_result result = vox_body_set_enabled(grid_.get(), soft.mesh, there))
+                    return result;
+            } else {
+                vox_body_remove(grid_.get(), soft.mesh);
+                soft = {};
             }
-            const void* before = soft.bound;
-            const vox_positions positions = positions_of(soft);
-            if (positions.data != before)
-                if (const vox_result result = vox_mesh_bind_positions(grid_.get(), soft.mesh, &positions)) return result;
-            const JPH::RMat44 m = soft.body->GetCenterOfMassTransform();
-            double matrix[12];
-            for (JPH::uint r = 0; r < 3; ++r) {
-                for (JPH::uint c = 0; c < 3; ++c)
-                    matrix[4 * r + c] = soft.axes[c][r] = static_cast<double>(m.GetColumn3(c)[r]);
-                matrix[4 * r + 3] = static_cast<double>(m.GetTranslation()[r]);
-            }
-            if (const vox_result result = vox_body_set_transform(grid_.get(), soft.mesh, matrix)) return result;
         }
         return vox_grid_step(grid_.get());
     }
@@ -325,183 +332,187 @@ private:
                 if (row.gap < 0) push_out(row, seconds);
             }
         for (Soft& soft : bodies_)
-            if (soft.body) finish(soft);
-    }
-
-    void add_row(const vox_constraint& c, double seconds) {
-        Soft &a = bodies_[c.user_data_a], &b = bodies_[c.user_data_b];
-        if (!a.body->IsActive() && !b.body->IsActive()) return;
-        if (!a.body->IsActive()) system_.GetBodyInterfaceNoLock().ActivateBody(a.id);
-        if (!b.body->IsActive()) system_.GetBodyInterfaceNoLock().ActivateBody(b.id);
-        if (!a.touched) touch(a);
-        if (!b.touched) touch(b);
-        Row row{};
-        row.a = &a;
-        row.b = &b;
-        row.begin = entries_.size();
-        for (std::uint32_t i = 0; i < c.count; ++i) {
-            Soft& soft = i < c.count_a ? a : b;
-            const std::uint32_t v = c.vertices[i];
-            if (soft.first.empty())
-                entries_.push_back({particle(soft, v), c.weights[i]});
-            else
-                for (std::uint32_t s = soft.first[v]; s < soft.first[v + 1]; ++s)
-                    entries_.push_back({particle(soft, soft.shares[s].vertex), c.weights[i] * soft.shares[s].weight});
-        }
-        row.end = entries_.size();
-        std::copy(std::begin(c.normal), std::end(c.normal), row.normal.begin());
-        const Vector at = {c.position[0], c.position[1], c.position[2]};
-        row.arm_a = sum(at, -1, a.centre);
-        row.arm_b = sum(sum(at, -c.gap, row.normal), -1, b.centre);
-        row.gap = c.gap;
-        Vector drawn{};
-        for (std::size_t e = row.begin; e < row.end; ++e) {
-            const Particle& p = particles_[entries_[e].particle];
-            row.velocity = sum(row.velocity, entries_[e].weight, p.velocity);
-            drawn = sum(drawn, entries_[e].weight, p.drawn);
-            row.inverse_mass += entries_[e].weight * entries_[e].weight * p.inverse_mass;
-        }
-        row.inverse_drag = row.inverse_mass;
-        for (const auto& [soft, arm] : {std::pair<Soft*, Vector>(&a, row.arm_a), {&b, row.arm_b}}) {
-            const Vector turn = cross(arm, row.normal);
-            row.inverse_mass += soft->inverse_mass + dot(turn, times(soft->inverse_inertia, turn));
-            row.inverse_drag += soft->inverse_mass + dot(arm, arm) * (soft->inverse_inertia[0][0] + soft->inverse_inertia[1][1] +
-                                                                      soft->inverse_inertia[2][2]);
-        }
-        row.friction = std::sqrt(static_cast<double>(a.body->GetFriction() * b.body->GetFriction())); // as Jolt does
-        // Jolt solves what holds the bodies together after this, and that draws points onto each other: presumably as
-        // much as in the last step.
-        row.wanted = settings_.foresight * std::max(0.0, -dot(drawn, row.normal)) - std::max(0.0, c.gap) / seconds;
-        if (row.inverse_mass > 0) rows_.push_back(row);
-    }
-
-    // Readies a body for contacts: mass, centre and inertia. A body with fixed vertices is not moved as a whole.
-    void touch(Soft& soft) {
-        const auto& vertices = properties(*soft.body).GetVertices();
-        soft.touched = true;
-        soft.particle.assign(vertices.size(), VOX_NONE);
-        soft.left.resize(vertices.size(), JPH::Vec3::sZero());
-        soft.impulse = soft.move = {};
-        soft.inverse_mass = 0;
-        soft.inverse_inertia = {};
-        double mass = 0;
-        Vector first{}, square{}, mixed{};
-        bool fixed = false;
-        for (const JPH::SoftBodyVertex& v : vertices) {
-            fixed = fixed || !(v.mInvMass > 0);
-            const double m = 1 / static_cast<double>(v.mInvMass);
-            const Vector x = vector(v.mPosition);
-            mass += m;
-            first = sum(first, m, x);
-            square = sum(square, m, {x[0] * x[0], x[1] * x[1], x[2] * x[2]});
-            mixed = sum(mixed, m, {x[1] * x[2], x[2] * x[0], x[0] * x[1]});
-        }
-        soft.softness = fixed ? 1 : 1 - settings_.stiffness;
-        if (fixed) return;
-        const Vector c = {first[0] / mass, first[1] / mass, first[2] / mass};
-        Matrix inertia;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
-            inertia[k][k] = square[i] + square[j] - mass * (c[i] * c[i] + c[j] * c[j]);
-            inertia[i][j] = inertia[j][i] = mass * c[i] * c[j] - mixed[k];
-        }
-        // The inverse: its rows are products of the columns. Then from the body's axes to the world's.
-        Matrix inverse = {cross(inertia[1], inertia[2]), cross(inertia[2], inertia[0]), cross(inertia[0], inertia[1])};
-        const double determinant = dot(inertia[0], inverse[0]);
-        soft.inverse_mass = settings_.stiffness / mass;
-        const JPH::RVec3 origin = soft.body->GetCenterOfMassTransform().GetTranslation();
-        soft.centre = sum({static_cast<double>(origin.GetX()), static_cast<double>(origin.GetY()), static_cast<double>(origin.GetZ())},
-                          1, times(soft.axes, c));
-        if (determinant > 0)
-            for (std::size_t k = 0; k < 3; ++k) {
-                const Vector axis = {soft.axes[0][k], soft.axes[1][k], soft.axes[2][k]};
-                soft.inverse_inertia[k] = sum({}, settings_.stiffness / determinant, times(soft.axes, times(inverse, axis)));
+            if (soft.body) {
+                if (soft.touched) finish(soft);
+                remember(soft);
             }
     }
 
-    // The place of a vertex among those in contact.
-    std::uint32_t particle(Soft& soft, std::uint32_t v) {
-        std::uint32_t& place = soft.particle[v];
-        if (place == VOX_NONE) {
-            place = static_cast<std::uint32_t>(particles_.size());
-            const JPH::SoftBodyVertex& vertex = properties(*soft.body).GetVertex(v);
-            particles_.push_back({static_cast<std::uint32_t>(&soft - bodies_.data()), v,
-                                  soft.softness * static_cast<double>(vertex.mInvMass),
-                                  times(soft.axes, vector(vertex.mVelocity)),
-                                  times(soft.axes, vector(vertex.mVelocity - soft.left[v]))});
+    void add_row(const vox_constraint& c, double seconds) {
+        Row row;
+        row.a = &bodies_[c.user_data_a];
+        row.b = &bodies_[c.user_data_b];
+        JPH::Body &a = *row.a->body, &b = *row.b->body;
+        if (!a.IsActive() && !b.IsActive()) return;
+        for (Soft* soft : {row.a, row.b}) {
+            if (!soft->body->IsActive()) system_.GetBodyInterfaceNoLock().ActivateBody(soft->id);
+            if (c.gap < -settings_.margin) soft->body->ResetSleepTimer();
+            if (!soft->touched) touch(*soft);
         }
-        return place;
+        row.begin = entries_.size();
+        for (std::uint32_t i = 0; i < c.count; ++i)
+            add_entries(i < c.count_a ? *row.a : *row.b, c.vertices[i], c.weights[i]);
+        row.end = entries_.size();
+        std::copy(std::begin(c.normal), std::end(c.normal), row.normal.begin());
+        row.gap = c.gap;
+        row.arm_a =
+            sum(sum({c.position[0], c.position[1], c.position[2]}, -1, row.a->origin), -1, row.a->centre);
+        row.arm_b = sum(sum(row.a->origin, -1, row.b->origin), 1,
+                        sum(sum(row.arm_a, 1, row.a->centre), -1, row.b->centre));
+        row.arm_b = sum(row.arm_b, -c.gap, row.normal);
+        Vector drawn{};
+        for (std::size_t e = row.begin; e < row.end; ++e) {
+            const double weight = entries_[e].weight;
+            const Particle& p = particles_[entries_[e].particle];
+            row.velocity = sum(row.velocity, weight, p.velocity);
+            drawn = sum(drawn, weight, p.drawn);
+            for (const Change k : {VELOCITY, PLACE})
+                row.inverse_mass[k] += weight * weight * p.inverse_mass[k];
+        }
+        row.inverse_drag = row.inverse_mass[VELOCITY];
+        for (const auto& [soft, arm] : {std::make_pair(row.a, row.arm_a), std::make_pair(row.b, row.arm_b)}) {
+            const Matrix& i = soft->inverse_inertia;
+            const Vector turn = cross(arm, row.normal);
+            for (double& w : row.inverse_mass) w += soft->inverse_mass + dot(turn, times(i, turn));
+            row.inverse_drag += soft->inverse_mass + dot(arm, arm) * (i[0][0] + i[1][1] + i[2][2]);
+        }
+        row.friction = std::sqrt(static_cast<double>(a.GetFriction() * b.GetFriction())); // as Jolt does
+        // Jolt solves what holds the bodies together after this, and that draws points onto each other:
+        // presumably as much as in the last step.
+        row.wanted =
+            settings_.foresight * std::max(0.0, -dot(drawn, row.normal)) - std::max(0.0, c.gap) / seconds;
+        if (row.inverse_mass[VELOCITY] > 0) rows_.push_back(row);
     }
 
-    // How a row's point of body a was moved, as seen from body b.
-    Vector change(const Row& row, Vector Particle::*part, Motion Soft::*whole) const {
-        const Motion &a = row.a->*whole, &b = row.b->*whole;
-        Vector total = sum(sum(a.linear, 1, cross(a.angular, row.arm_a)), -1, sum(b.linear, 1, cross(b.angular, row.arm_b)));
+    // Readies a body for contacts: mass, centre and inertia. One with fixed vertices is not moved as a whole.
+    void touch(Soft& soft) {
+        const auto& vertices = properties_of(soft).GetVertices();
+        soft.touched = true;
+        soft.fixed = false;
+        soft.particle.assign(vertices.size(), VOX_NONE);
+        for (Motion& motion : soft.changes) motion = {};
+        double mass = 0;
+        Vector first{};
+        Matrix second{};
+        for (const JPH::SoftBodyVertex& v : vertices) {
+            soft.fixed = soft.fixed || !(v.mInvMass > 0);
+            const double m = soft.fixed ? 0 : 1 / static_cast<double>(v.mInvMass);
+            const Vector x = vector(v.mPosition);
+            mass += m;
+            first = sum(first, m, x);
+            for (std::size_t k = 0; k < 3; ++k) second[k] = sum(second[k], m * x[k], x);
+        }
+        const double share = soft.fixed ? 0 : settings_.stiffness;
+        const Vector centre = sum({}, 1 / std::max(mass, 1e-300), first);
+        for (std::size_t k = 0; k < 3; ++k) second[k] = sum(second[k], -mass * centre[k], centre);
+        const double trace = second[0][0] + second[1][1] + second[2][2];
+        for (std::size_t k = 0; k < 3; ++k) {
+            second[k] = sum({}, -1, second[k]);
+            second[k][k] += trace;
+        }
+        const Matrix local = inverse(second);
+        for (std::size_t k = 0; k < 3; ++k)
+            soft.inverse_inertia[k] =
+                sum({}, share,
+                    times(soft.axes, times(local, {soft.axes[0][k], soft.axes[1][k], soft.axes[2][k]})));
+        soft.inverse_mass = share / std::max(mass, 1e-300);
+        soft.centre = times(soft.axes, centre);
+    }
+
+    void add_entries(Soft& soft, std::uint32_t v, double weight) {
+        if (soft.first.empty())
+            entries_.push_back({particle_of(soft, v), weight});
+        else
+            for (std::uint32_t s = soft.first[v]; s < soft.first[v + 1]; ++s)
+                entries_.push_back(
+                    {particle_of(soft, soft.shares[s].vertex), weight * soft.shares[s].weight});
+    }
+
+    std::uint32_t particle_of(Soft& soft, std::uint32_t v) {
+        if (soft.particle[v] == VOX_NONE) {
+            soft.particle[v] = static_cast<std::uint32_t>(particles_.size());
+            const JPH::SoftBodyVertex& vertex = properties_of(soft).GetVertices()[v];
+            const double inverse_mass = static_cast<double>(vertex.mInvMass);
+            const Vector velocity = vector(vertex.mVelocity), drawn = sum(velocity, -1, vector(soft.left[v]));
+            particles_.push_back({times(soft.axes, velocity),
+                                  times(soft.axes, drawn),
+                                  // A vertex pushed alone would spring back: that adds energy.
+                                  {soft.fixed ? inverse_mass : (1 - settings_.stiffness) * inverse_mass,
+                                   soft.fixed ? inverse_mass : 0},
+                                  {}});
+        }
+        return soft.particle[v];
+    }
+
+    // How a row's point of body a was changed, as seen from body b.
+    Vector changed(const Row& row, Change k) const {
+        const Motion &a = row.a->changes[k], &b = row.b->changes[k];
+        Vector total = sum(sum(a.linear, 1, cross(a.angular, row.arm_a)), -1,
+                           sum(b.linear, 1, cross(b.angular, row.arm_b)));
         for (std::size_t e = row.begin; e < row.end; ++e)
-            total = sum(total, entries_[e].weight, particles_[entries_[e].particle].*part);
+            total = sum(total, entries_[e].weight, particles_[entries_[e].particle].changes[k]);
         return total;
     }
 
-    // Gives a momentum, or a mass times a way, to a row's point of body a, and its opposite to that of body b.
-    void give(const Row& row, Vector Particle::*part, Motion Soft::*whole, double factor, const Vector& direction) {
+    // Gives a momentum, or a mass times a way, to a row's point of body a, and its opposite to that of body
+    // b.
+    void give(const Row& row, Change k, double factor, const Vector& direction) {
         for (std::size_t e = row.begin; e < row.end; ++e) {
             Particle& p = particles_[entries_[e].particle];
-            p.*part = sum(p.*part, factor * entries_[e].weight * p.inverse_mass, direction);
+            p.changes[k] = sum(p.changes[k], factor * entries_[e].weight * p.inverse_mass[k], direction);
         }
-        turn(*row.a, whole, row.arm_a, factor, direction);
-        turn(*row.b, whole, row.arm_b, -factor, direction);
+        turn(*row.a, k, row.arm_a, factor, direction);
+        turn(*row.b, k, row.arm_b, -factor, direction);
     }
-    static void turn(Soft& soft, Motion Soft::*whole, const Vector& arm, double factor, const Vector& direction) {
-        Motion& motion = soft.*whole;
+    static void turn(Soft& soft, Change k, const Vector& arm, double factor, const Vector& direction) {
+        Motion& motion = soft.changes[k];
         motion.linear = sum(motion.linear, factor * soft.inverse_mass, direction);
         motion.angular = sum(motion.angular, factor, times(soft.inverse_inertia, cross(arm, direction)));
+    }
+    // Gives as much along the normal as `missing` needs, and never pulls in sum.
+    void give_normal(Row& row, Change k, double missing) {
+        const double given = std::max(0.0, row.given[k] + missing / row.inverse_mass[k]);
+        if (given != row.given[k]) give(row, k, given - row.given[k], row.normal);
+        row.given[k] = given;
     }
 
     // Ends the approach of the two points, and their sliding by Coulomb's law.
     void brake(Row& row) {
-        Vector v = sum(row.velocity, 1, change(row, &Particle::impulse, &Soft::impulse));
-        const double impulse = std::max(0.0, row.impulse + (row.wanted - dot(v, row.normal)) / row.inverse_mass);
-        if (impulse != row.impulse) give(row, &Particle::impulse, &Soft::impulse, impulse - row.impulse, row.normal);
-        row.impulse = impulse;
-        if (impulse == 0 && dot(row.drag, row.drag) == 0) return;
-        v = sum(row.velocity, 1, change(row, &Particle::impulse, &Soft::impulse));
+        give_normal(row, VELOCITY,
+                    row.wanted - dot(sum(row.velocity, 1, changed(row, VELOCITY)), row.normal));
+        if (row.given[VELOCITY] == 0 && row.drag == Vector{}) return;
+        const Vector v = sum(row.velocity, 1, changed(row, VELOCITY));
         Vector drag = sum(row.drag, -1 / row.inverse_drag, sum(v, -dot(v, row.normal), row.normal));
-        const double most = row.friction * row.impulse, size = std::sqrt(dot(drag, drag));
+        const double most = row.friction * row.given[VELOCITY], size = std::sqrt(dot(drag, drag));
         if (size > most) drag = sum({}, most / size, drag);
-        give(row, &Particle::impulse, &Soft::impulse, 1, sum(drag, -1, row.drag));
+        give(row, VELOCITY, 1, sum(drag, -1, row.drag));
         row.drag = drag;
     }
 
     void push_out(Row& row, double seconds) {
         const double way = std::min(-settings_.push * row.gap, settings_.push_speed * seconds);
-        const double left = way - dot(change(row, &Particle::move, &Soft::move), row.normal);
-        const double push = std::max(0.0, row.push + left / row.inverse_mass);
-        if (push != row.push) give(row, &Particle::move, &Soft::move, push - row.push, row.normal);
-        row.push = push;
+        if (row.inverse_mass[PLACE] > 0) give_normal(row, PLACE, way - dot(changed(row, PLACE), row.normal));
     }
 
+    // Hands the changes to Jolt.
     void finish(Soft& soft) {
-        auto& vertices = properties(*soft.body).GetVertices();
-        soft.left.resize(vertices.size());
-        if (soft.touched) {
-            const Vector origin = [&] { const JPH::RVec3 o = soft.body->GetCenterOfMassTransform().GetTranslation(); return Vector{static_cast<double>(o.GetX()), static_cast<double>(o.GetY()), static_cast<double>(o.GetZ())}; }();
-            const JPH::Vec3 centre = to_local(soft, sum(soft.centre, -1, origin));
-            const JPH::Vec3 velocity = to_local(soft, soft.impulse.linear), spin = to_local(soft, soft.impulse.angular);
-            const JPH::Vec3 way = to_local(soft, soft.move.linear), turn = to_local(soft, soft.move.angular);
-            for (std::size_t v = 0; v < vertices.size(); ++v) {
-                JPH::SoftBodyVertex& vertex = vertices[v];
-                const JPH::Vec3 arm = vertex.mPosition - centre;
-                JPH::Vec3 impulse = velocity + spin.Cross(arm), move = way + turn.Cross(arm);
-                if (soft.particle[v] != VOX_NONE) {
-                    impulse += to_local(soft, particles_[soft.particle[v]].impulse);
-                    move += to_local(soft, particles_[soft.particle[v]].move);
-                }
-                vertex.mVelocity += impulse;
-                vertex.mPosition += move;
-            }
-            soft.touched = false;
+        auto& vertices = properties_of(soft).GetVertices();
+        const JPH::Vec3 centre = to_local(soft, soft.centre);
+        JPH::Vec3 linear[2], angular[2];
+        for (const Change k : {VELOCITY, PLACE}) {
+            linear[k] = to_local(soft, soft.changes[k].linear);
+            angular[k] = to_local(soft, soft.changes[k].angular);
         }
-        for (std::size_t v = 0; v < vertices.size(); ++v) soft.left[v] = vertices[v].mVelocity;
+        for (std::size_t v = 0; v < vertices.size(); ++v) {
+            const JPH::Vec3 arm = vertices[v].mPosition - centre;
+            JPH::Vec3 change[2] = {linear[0] + angular[0].Cross(arm), linear[1] + angular[1].Cross(arm)};
+            if (soft.particle[v] != VOX_NONE)
+                for (const Change k : {VELOCITY, PLACE})
+                    change[k] += to_local(soft, particles_[soft.particle[v]].changes[k]);
+            vertices[v].mVelocity += change[VELOCITY];
+            vertices[v].mPosition += change[PLACE];
+        }
+        soft.touched = false;
     }
 
     JPH::PhysicsSystem& system_;
