@@ -25,7 +25,6 @@
 #include <vox/vox_io.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -40,9 +39,9 @@ struct JoltSoftContactSettings {
     double margin = 0.01;    // in metres: vertices this close are kept from getting in
     double stiffness = 0.98; // share of an impulse that moves the whole body as if it were rigid
     double foresight =
-        0.9;           // share of what drew contacts together in the last step that this one makes up for
+        0.8;           // share of what drew contacts together in the last step that this one makes up for
     double push = 0.5; // share of a depth that a step takes away,
-    double push_speed = 0.5;        // but at most so many metres in a second
+    double push_speed = 0.25;       // but at most so many metres in a second
     int iterations = 8;             // over all contacts of a step
     std::uint32_t worker_count = 1; // threads that look for contacts; VOX_ALL_CORES
 };
@@ -83,7 +82,7 @@ public:
         place(soft);
         remember(soft);
         vox_mesh_desc desc = vox_default_mesh_desc();
-        desc.positions = positions_of(soft);
+        desc.positions = vox_float_positions(soft.world.data(), soft.world.size() / 3);
         desc.tets = tets.data();
         desc.tet_count = tets.size() / 4;
         desc.user_data = bodies_.size();
@@ -107,8 +106,42 @@ public:
     }
 
 private:
-    using Vector = std::array<double, 3>;
-    using Matrix = std::array<Vector, 3>; // of columns
+    struct Vector {
+        double x = 0, y = 0, z = 0;
+        Vector() = default;
+        Vector(double x, double y, double z) : x(x), y(y), z(z) {}
+        explicit Vector(const double* p) : x(p[0]), y(p[1]), z(p[2]) {}
+        explicit Vector(JPH::Vec3Arg v) : x(double(v.GetX())), y(double(v.GetY())), z(double(v.GetZ())) {}
+        friend Vector operator+(const Vector& a, const Vector& b) {
+            return {a.x + b.x, a.y + b.y, a.z + b.z};
+        }
+        friend Vector operator-(const Vector& a, const Vector& b) {
+            return {a.x - b.x, a.y - b.y, a.z - b.z};
+        }
+        friend Vector operator*(double f, const Vector& a) { return {f * a.x, f * a.y, f * a.z}; }
+        void operator+=(const Vector& b) { *this = *this + b; }
+    };
+    static double dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+    static Vector cross(const Vector& a, const Vector& b) {
+        return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    }
+
+    struct Matrix {
+        Vector x, y, z; // columns
+        friend Vector operator*(const Matrix& m, const Vector& v) {
+            return v.x * m.x + v.y * m.y + v.z * m.z;
+        }
+        void add_outer(double f, const Vector& v) { x += f * v.x * v, y += f * v.y * v, z += f * v.z * v; }
+        double trace() const { return x.x + y.y + z.z; }
+        Matrix transposed() const { return {{x.x, y.x, z.x}, {x.y, y.y, z.y}, {x.z, y.z, z.z}}; }
+        // Of a symmetric matrix: 0 if it is singular.
+        Matrix inverse() const {
+            const Vector a = cross(y, z), b = cross(z, x), c = cross(x, y);
+            const double size = trace(), determinant = dot(x, a);
+            const double f = determinant > 1e-12 * size * size * size ? 1 / determinant : 0;
+            return {f * a, f * b, f * c};
+        }
+    };
 
     struct GridDeleter {
         void operator()(vox_grid* grid) const { vox_grid_destroy(grid); }
@@ -124,14 +157,15 @@ private:
     enum Change : std::size_t { VELOCITY, PLACE };
 
     struct Motion {
-        Vector linear{}, angular{};
+        Vector linear, angular;
+        Vector at(const Vector& arm) const { return linear + cross(angular, arm); }
     };
 
     struct Soft {
         JPH::BodyID id;
         JPH::Body* body = nullptr;
         vox_body mesh = VOX_NULL_BODY;
-        std::vector<JPH::Real> world;     // positions of the mesh
+        std::vector<float> world;         // positions of the mesh
         std::vector<std::uint32_t> first; // of a filling: where the shares of its vertices begin
         std::vector<Share> shares;
         std::vector<JPH::Vec3> left;         // velocities with which the last step began
@@ -139,8 +173,8 @@ private:
         bool touched = false, fixed = false; // in contact; with vertices that never move
         // The body as if it were rigid. The axes are the columns of its rotation; all else is in world axes,
         // or, of the centre, from its origin.
-        Matrix axes{}, inverse_inertia{};
-        Vector origin{}, centre{};
+        Matrix axes, inverse_inertia;
+        Vector origin, centre;
         double inverse_mass = 0;
         Motion changes[2];
     };
@@ -161,67 +195,34 @@ private:
     struct Row {
         std::size_t begin = 0, end = 0; // of its entries
         Soft *a = nullptr, *b = nullptr;
-        Vector normal{}, arm_a{}, arm_b{}, velocity{};
+        Vector normal, arm_a, arm_b, velocity, drag;
         double gap = 0, wanted = 0, friction = 0, inverse_mass[2] = {}, inverse_drag = 0;
         double given[2] = {};
-        Vector drag{};
     };
 
     static JPH::SoftBodyMotionProperties& properties_of(const Soft& soft) {
         return *static_cast<JPH::SoftBodyMotionProperties*>(soft.body->GetMotionPropertiesUnchecked());
     }
-    static vox_positions positions_of(const Soft& soft) {
-        return positions_of(soft.world.data(), soft.world.size() / 3);
-    }
-    static vox_positions positions_of(const float* xyz, std::size_t count) {
-        return vox_float_positions(xyz, count);
-    }
-    static vox_positions positions_of(const double* xyz, std::size_t count) {
-        return vox_double_positions(xyz, count);
-    }
-
-    template <typename Three> // JPH::Vec3 or RVec3
-    static Vector vector(const Three& v) {
-        return {static_cast<double>(v.GetX()), static_cast<double>(v.GetY()), static_cast<double>(v.GetZ())};
-    }
-    static double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-    static Vector cross(const Vector& a, const Vector& b) {
-        return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-    }
-    static Vector sum(const Vector& a, double factor, const Vector& b) {
-        return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
-    }
-    static Vector times(const Matrix& m, const Vector& v) {
-        return sum(sum(sum({}, v[0], m[0]), v[1], m[1]), v[2], m[2]);
-    }
-    // Of a symmetric matrix: 0 if it is singular.
-    static Matrix inverse(const Matrix& m) {
-        Matrix i = {cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])};
-        const double determinant = dot(m[0], i[0]), size = m[0][0] + m[1][1] + m[2][2];
-        for (Vector& column : i)
-            column = sum({}, determinant > 1e-12 * size * size * size ? 1 / determinant : 0, column);
-        return i;
-    }
     static JPH::Vec3 to_local(const Soft& soft, const Vector& v) {
-        return JPH::Vec3(static_cast<float>(dot(soft.axes[0], v)), static_cast<float>(dot(soft.axes[1], v)),
-                         static_cast<float>(dot(soft.axes[2], v)));
+        const Vector local = soft.axes.transposed() * v;
+        return JPH::Vec3(static_cast<float>(local.x), static_cast<float>(local.y),
+                         static_cast<float>(local.z));
     }
 
     // Fills the faces of a body with tetrahedra, whose vertices move with those of the body.
     static vox_result fill(Soft& soft, std::vector<std::uint32_t>& tets) {
-        std::vector<double> at;
-        for (const JPH::SoftBodyVertex& v : properties_of(soft).GetVertices())
-            for (const double x : vector(v.mPosition)) at.push_back(x);
+        std::vector<Vector> at;
+        for (const JPH::SoftBodyVertex& v : properties_of(soft).GetVertices()) at.emplace_back(v.mPosition);
         std::vector<std::uint32_t> triangles;
         double edges = 0;
         for (const auto& face : properties_of(soft).GetSettings()->mFaces) {
             triangles.insert(triangles.end(), std::begin(face.mVertex), std::end(face.mVertex));
-            const double *a = &at[3 * face.mVertex[0]], *b = &at[3 * face.mVertex[1]];
-            edges += std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+            const Vector edge = at[face.mVertex[1]] - at[face.mVertex[0]];
+            edges += std::sqrt(dot(edge, edge));
         }
         vox_io_mesh_view mesh{};
-        mesh.positions = at.data();
-        mesh.vertex_count = at.size() / 3;
+        mesh.positions = at.empty() ? nullptr : &at[0].x;
+        mesh.vertex_count = at.size();
         mesh.triangles = triangles.data();
         mesh.triangle_count = triangles.size() / 3;
         vox_io_mesh *surface = nullptr, *solid = nullptr;
@@ -233,8 +234,8 @@ private:
         if (result == VOX_OK) {
             tets.assign(mesh.tets, mesh.tets + 4 * mesh.tet_count);
             soft.first.push_back(0);
-            for (const double* x = mesh.positions; x != mesh.positions + 3 * mesh.vertex_count; x += 3)
-                share_out(soft, at, {x[0], x[1], x[2]});
+            for (std::uint64_t i = 0; i < mesh.vertex_count; ++i)
+                share_out(soft, at, Vector(mesh.positions + 3 * i));
         }
         vox_io_mesh_destroy(surface);
         vox_io_mesh_destroy(solid);
@@ -244,31 +245,25 @@ private:
     // Weights of a body's vertices for a point, by moving least squares (P. Lancaster and K. Salkauskas,
     // 1981): they sum up to 1 and to the point, so that a filling turns, shears and stretches as its body
     // does.
-    static void share_out(Soft& soft, const std::vector<double>& at, const Vector& point) {
+    static void share_out(Soft& soft, const std::vector<Vector>& at, const Vector& point) {
         std::vector<double> nearness;
-        double total = 0;
-        Vector mean{};
-        for (std::size_t i = 0; i < at.size(); i += 3) {
-            const Vector x = {at[i], at[i + 1], at[i + 2]}, to = sum(x, -1, point);
-            nearness.push_back(1 / (dot(to, to) * dot(to, to) + 1e-24));
+        double total = 0, kept = 0;
+        Vector mean;
+        for (const Vector& x : at) {
+            const double square = dot(x - point, x - point);
+            nearness.push_back(1 / (square * square + 1e-24));
             total += nearness.back();
-            mean = sum(mean, nearness.back(), x);
+            mean += nearness.back() * x;
         }
-        mean = sum({}, 1 / total, mean);
-        Matrix spread{};
-        for (std::size_t i = 0; i < at.size(); i += 3) {
-            const Vector to = sum({at[i], at[i + 1], at[i + 2]}, -1, mean);
-            for (std::size_t k = 0; k < 3; ++k)
-                spread[k] = sum(spread[k], nearness[i / 3] / total * to[k], to);
-        }
-        const Vector slope = times(inverse(spread), sum(point, -1, mean));
+        mean = 1 / total * mean;
+        Matrix spread;
+        for (std::size_t i = 0; i < at.size(); ++i) spread.add_outer(nearness[i] / total, at[i] - mean);
+        const Vector slope = spread.inverse() * (point - mean);
         const std::size_t begin = soft.shares.size();
-        double kept = 0;
-        for (std::size_t i = 0; i < at.size(); i += 3) {
-            const Vector to = sum({at[i], at[i + 1], at[i + 2]}, -1, mean);
-            const double weight = nearness[i / 3] / total * (1 + dot(to, slope));
+        for (std::size_t i = 0; i < at.size(); ++i) {
+            const double weight = nearness[i] / total * (1 + dot(at[i] - mean, slope));
             if (std::abs(weight) < 1e-3) continue;
-            soft.shares.push_back({static_cast<std::uint32_t>(i / 3), weight});
+            soft.shares.push_back({static_cast<std::uint32_t>(i), weight});
             kept += weight;
         }
         for (std::size_t s = begin; s < soft.shares.size(); ++s) soft.shares[s].weight /= kept;
@@ -279,19 +274,20 @@ private:
     static void place(Soft& soft) {
         const auto& vertices = properties_of(soft).GetVertices();
         const JPH::RMat44 m = soft.body->GetCenterOfMassTransform();
-        for (JPH::uint k = 0; k < 3; ++k) soft.axes[k] = vector(m.GetColumn3(k));
-        soft.origin = vector(m.GetTranslation());
+        const auto origin = m.GetTranslation();
+        soft.axes = {Vector(m.GetColumn3(0)), Vector(m.GetColumn3(1)), Vector(m.GetColumn3(2))};
+        soft.origin = {double(origin.GetX()), double(origin.GetY()), double(origin.GetZ())};
         const std::size_t count = soft.first.empty() ? vertices.size() : soft.first.size() - 1;
-        soft.world.resize(3 * count);
+        soft.world.clear();
         for (std::size_t i = 0; i < count; ++i) {
-            Vector at{};
+            Vector at;
             if (soft.first.empty())
-                at = vector(vertices[i].mPosition);
+                at = Vector(vertices[i].mPosition);
             else
                 for (std::uint32_t s = soft.first[i]; s < soft.first[i + 1]; ++s)
-                    at = sum(at, soft.shares[s].weight, vector(vertices[soft.shares[s].vertex].mPosition));
-            at = sum(soft.origin, 1, times(soft.axes, at));
-            for (std::size_t k = 0; k < 3; ++k) soft.world[3 * i + k] = static_cast<JPH::Real>(at[k]);
+                    at += soft.shares[s].weight * Vector(vertices[soft.shares[s].vertex].mPosition);
+            at = soft.origin + soft.axes * at;
+            for (const double x : {at.x, at.y, at.z}) soft.world.push_back(static_cast<float>(x));
         }
     }
 
@@ -353,34 +349,33 @@ private:
         for (std::uint32_t i = 0; i < c.count; ++i)
             add_entries(i < c.count_a ? *row.a : *row.b, c.vertices[i], c.weights[i]);
         row.end = entries_.size();
-        std::copy(std::begin(c.normal), std::end(c.normal), row.normal.begin());
+        row.normal = Vector(c.normal);
         row.gap = c.gap;
-        row.arm_a =
-            sum(sum({c.position[0], c.position[1], c.position[2]}, -1, row.a->origin), -1, row.a->centre);
-        row.arm_b = sum(sum(row.a->origin, -1, row.b->origin), 1,
-                        sum(sum(row.arm_a, 1, row.a->centre), -1, row.b->centre));
-        row.arm_b = sum(row.arm_b, -c.gap, row.normal);
-        Vector drawn{};
+        row.arm_a = Vector(c.position) - row.a->origin - row.a->centre;
+        row.arm_b = Vector(c.position) - c.gap * row.normal - row.b->origin - row.b->centre;
+        Vector drawn;
         for (std::size_t e = row.begin; e < row.end; ++e) {
             const double weight = entries_[e].weight;
             const Particle& p = particles_[entries_[e].particle];
-            row.velocity = sum(row.velocity, weight, p.velocity);
-            drawn = sum(drawn, weight, p.drawn);
+            row.velocity += weight * p.velocity;
+            drawn += weight * p.drawn;
             for (const Change k : {VELOCITY, PLACE})
                 row.inverse_mass[k] += weight * weight * p.inverse_mass[k];
         }
         row.inverse_drag = row.inverse_mass[VELOCITY];
         for (const auto& [soft, arm] : {std::make_pair(row.a, row.arm_a), std::make_pair(row.b, row.arm_b)}) {
-            const Matrix& i = soft->inverse_inertia;
             const Vector turn = cross(arm, row.normal);
-            for (double& w : row.inverse_mass) w += soft->inverse_mass + dot(turn, times(i, turn));
-            row.inverse_drag += soft->inverse_mass + dot(arm, arm) * (i[0][0] + i[1][1] + i[2][2]);
+            for (double& w : row.inverse_mass)
+                w += soft->inverse_mass + dot(turn, soft->inverse_inertia * turn);
+            row.inverse_drag +=
+                soft->inverse_mass + dot(arm, arm) * soft->inverse_inertia.trace(); // at least
         }
         row.friction = std::sqrt(static_cast<double>(a.GetFriction() * b.GetFriction())); // as Jolt does
         // Jolt solves what holds the bodies together after this, and that draws points onto each other:
-        // presumably as much as in the last step.
-        row.wanted =
-            settings_.foresight * std::max(0.0, -dot(drawn, row.normal)) - std::max(0.0, c.gap) / seconds;
+        // presumably as much as in the last step. Deep contacts are pushed out alone: their normals may
+        // differ, and that adds energy.
+        const double foresight = c.gap < -5 * settings_.margin ? 0 : settings_.foresight;
+        row.wanted = foresight * std::max(0.0, -dot(drawn, row.normal)) - std::max(0.0, c.gap) / seconds;
         if (row.inverse_mass[VELOCITY] > 0) rows_.push_back(row);
     }
 
@@ -392,31 +387,27 @@ private:
         soft.particle.assign(vertices.size(), VOX_NONE);
         for (Motion& motion : soft.changes) motion = {};
         double mass = 0;
-        Vector first{};
-        Matrix second{};
+        Vector first;
+        Matrix second, inertia;
         for (const JPH::SoftBodyVertex& v : vertices) {
             soft.fixed = soft.fixed || !(v.mInvMass > 0);
             const double m = soft.fixed ? 0 : 1 / static_cast<double>(v.mInvMass);
-            const Vector x = vector(v.mPosition);
             mass += m;
-            first = sum(first, m, x);
-            for (std::size_t k = 0; k < 3; ++k) second[k] = sum(second[k], m * x[k], x);
+            first += m * Vector(v.mPosition);
+            second.add_outer(m, Vector(v.mPosition));
         }
-        const double share = soft.fixed ? 0 : settings_.stiffness;
-        const Vector centre = sum({}, 1 / std::max(mass, 1e-300), first);
-        for (std::size_t k = 0; k < 3; ++k) second[k] = sum(second[k], -mass * centre[k], centre);
-        const double trace = second[0][0] + second[1][1] + second[2][2];
-        for (std::size_t k = 0; k < 3; ++k) {
-            second[k] = sum({}, -1, second[k]);
-            second[k][k] += trace;
-        }
-        const Matrix local = inverse(second);
-        for (std::size_t k = 0; k < 3; ++k)
-            soft.inverse_inertia[k] =
-                sum({}, share,
-                    times(soft.axes, times(local, {soft.axes[0][k], soft.axes[1][k], soft.axes[2][k]})));
-        soft.inverse_mass = share / std::max(mass, 1e-300);
-        soft.centre = times(soft.axes, centre);
+        const double share = soft.fixed ? 0 : settings_.stiffness / mass;
+        const Vector centre = 1 / std::max(mass, 1e-300) * first;
+        second.add_outer(-mass, centre);
+        const double t = second.trace();
+        inertia = {Vector(t, 0, 0) - second.x, Vector(0, t, 0) - second.y, Vector(0, 0, t) - second.z};
+        const Matrix inverse = inertia.inverse(), rows = soft.axes.transposed();
+        const double angular = share * mass;
+        soft.inverse_inertia = {angular * (soft.axes * (inverse * rows.x)),
+                                angular * (soft.axes * (inverse * rows.y)),
+                                angular * (soft.axes * (inverse * rows.z))};
+        soft.inverse_mass = share;
+        soft.centre = soft.axes * centre;
     }
 
     void add_entries(Soft& soft, std::uint32_t v, double weight) {
@@ -433,10 +424,9 @@ private:
             soft.particle[v] = static_cast<std::uint32_t>(particles_.size());
             const JPH::SoftBodyVertex& vertex = properties_of(soft).GetVertices()[v];
             const double inverse_mass = static_cast<double>(vertex.mInvMass);
-            const Vector velocity = vector(vertex.mVelocity), drawn = sum(velocity, -1, vector(soft.left[v]));
-            particles_.push_back({times(soft.axes, velocity),
-                                  times(soft.axes, drawn),
-                                  // A vertex pushed alone would spring back: that adds energy.
+            // A vertex that is pushed alone springs back, and that would add energy.
+            particles_.push_back({soft.axes * Vector(vertex.mVelocity),
+                                  soft.axes * Vector(vertex.mVelocity - soft.left[v]),
                                   {soft.fixed ? inverse_mass : (1 - settings_.stiffness) * inverse_mass,
                                    soft.fixed ? inverse_mass : 0},
                                   {}});
@@ -446,46 +436,41 @@ private:
 
     // How a row's point of body a was changed, as seen from body b.
     Vector changed(const Row& row, Change k) const {
-        const Motion &a = row.a->changes[k], &b = row.b->changes[k];
-        Vector total = sum(sum(a.linear, 1, cross(a.angular, row.arm_a)), -1,
-                           sum(b.linear, 1, cross(b.angular, row.arm_b)));
+        Vector total = row.a->changes[k].at(row.arm_a) - row.b->changes[k].at(row.arm_b);
         for (std::size_t e = row.begin; e < row.end; ++e)
-            total = sum(total, entries_[e].weight, particles_[entries_[e].particle].changes[k]);
+            total += entries_[e].weight * particles_[entries_[e].particle].changes[k];
         return total;
     }
 
-    // Gives a momentum, or a mass times a way, to a row's point of body a, and its opposite to that of body
-    // b.
-    void give(const Row& row, Change k, double factor, const Vector& direction) {
+    // Gives a momentum, or a mass times a way, to body a at a row's point, and its opposite to body b.
+    void give(const Row& row, Change k, const Vector& amount) {
         for (std::size_t e = row.begin; e < row.end; ++e) {
             Particle& p = particles_[entries_[e].particle];
-            p.changes[k] = sum(p.changes[k], factor * entries_[e].weight * p.inverse_mass[k], direction);
+            p.changes[k] += entries_[e].weight * p.inverse_mass[k] * amount;
         }
-        turn(*row.a, k, row.arm_a, factor, direction);
-        turn(*row.b, k, row.arm_b, -factor, direction);
+        give(*row.a, k, row.arm_a, amount);
+        give(*row.b, k, row.arm_b, -1 * amount);
     }
-    static void turn(Soft& soft, Change k, const Vector& arm, double factor, const Vector& direction) {
-        Motion& motion = soft.changes[k];
-        motion.linear = sum(motion.linear, factor * soft.inverse_mass, direction);
-        motion.angular = sum(motion.angular, factor, times(soft.inverse_inertia, cross(arm, direction)));
+    static void give(Soft& soft, Change k, const Vector& arm, const Vector& amount) {
+        soft.changes[k].linear += soft.inverse_mass * amount;
+        soft.changes[k].angular += soft.inverse_inertia * cross(arm, amount);
     }
     // Gives as much along the normal as `missing` needs, and never pulls in sum.
     void give_normal(Row& row, Change k, double missing) {
         const double given = std::max(0.0, row.given[k] + missing / row.inverse_mass[k]);
-        if (given != row.given[k]) give(row, k, given - row.given[k], row.normal);
+        if (given != row.given[k]) give(row, k, (given - row.given[k]) * row.normal);
         row.given[k] = given;
     }
 
     // Ends the approach of the two points, and their sliding by Coulomb's law.
     void brake(Row& row) {
-        give_normal(row, VELOCITY,
-                    row.wanted - dot(sum(row.velocity, 1, changed(row, VELOCITY)), row.normal));
-        if (row.given[VELOCITY] == 0 && row.drag == Vector{}) return;
-        const Vector v = sum(row.velocity, 1, changed(row, VELOCITY));
-        Vector drag = sum(row.drag, -1 / row.inverse_drag, sum(v, -dot(v, row.normal), row.normal));
+        give_normal(row, VELOCITY, row.wanted - dot(row.velocity + changed(row, VELOCITY), row.normal));
+        if (row.given[VELOCITY] == 0 && dot(row.drag, row.drag) == 0) return;
+        const Vector v = row.velocity + changed(row, VELOCITY);
+        Vector drag = row.drag - 1 / row.inverse_drag * (v - dot(v, row.normal) * row.normal);
         const double most = row.friction * row.given[VELOCITY], size = std::sqrt(dot(drag, drag));
-        if (size > most) drag = sum({}, most / size, drag);
-        give(row, VELOCITY, 1, sum(drag, -1, row.drag));
+        if (size > most) drag = most / size * drag;
+        give(row, VELOCITY, drag - row.drag);
         row.drag = drag;
     }
 
