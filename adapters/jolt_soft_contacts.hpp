@@ -65,7 +65,7 @@ public:
 
     // Takes a soft body of the system in. Its tetrahedra are the given ones (four vertices each), else its
     // volume constraints, else a filling of its faces, which have to be closed. A body that leaves the system
-    // is forgotten. VOX_OK, or an error that vox_last_error describes.
+    // is forgotten. INVALID_HANDLE: not a soft body of the system. vox_last_error describes other errors.
     vox_result add(const JPH::BodyID& id, std::vector<std::uint32_t> tets = {},
                    const vox_filter& filter = {}) {
         if (!grid_) return result_;
@@ -109,7 +109,7 @@ private:
     struct Vector {
         double x = 0, y = 0, z = 0;
         Vector() = default;
-        Vector(double x, double y, double z) : x(x), y(y), z(z) {}
+        Vector(double a, double b, double c) : x(a), y(b), z(c) {}
         explicit Vector(const double* p) : x(p[0]), y(p[1]), z(p[2]) {}
         explicit Vector(JPH::Vec3Arg v) : x(double(v.GetX())), y(double(v.GetY())), z(double(v.GetZ())) {}
         friend Vector operator+(const Vector& a, const Vector& b) {
