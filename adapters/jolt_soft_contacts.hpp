@@ -36,12 +36,11 @@
 namespace vox {
 
 struct JoltSoftContactSettings {
-    double margin = 0.01;    // in metres: vertices this close are kept from getting in
-    double stiffness = 0.98; // share of an impulse that moves the whole body as if it were rigid
-    double foresight =
-        0.8;           // share of what drew contacts together in the last step that this one makes up for
-    double push = 0.5; // share of a depth that a step takes away,
-    double push_speed = 0.25;       // but at most so many metres in a second
+    double margin = 0.01;           // in metres: vertices this close are kept from getting in
+    double stiffness = 0.98;        // share of an impulse that moves the whole body as if it were rigid
+    double foresight = 0.9;         // share of what drew contacts together last, made up for in this step
+    double push = 0.5;              // share of a depth that a step takes away,
+    double push_speed = 0.2;        // but at most so many metres in a second
     int iterations = 8;             // over all contacts of a step
     std::uint32_t worker_count = 1; // threads that look for contacts; VOX_ALL_CORES
 };
@@ -374,7 +373,7 @@ private:
         // Jolt solves what holds the bodies together after this, and that draws points onto each other:
         // presumably as much as in the last step. Deep contacts are pushed out alone: their normals may
         // differ, and that adds energy.
-        const double foresight = c.gap < -5 * settings_.margin ? 0 : settings_.foresight;
+        const double foresight = c.gap < -10 * settings_.margin ? 0 : settings_.foresight;
         row.wanted = foresight * std::max(0.0, -dot(drawn, row.normal)) - std::max(0.0, c.gap) / seconds;
         if (row.inverse_mass[VELOCITY] > 0) rows_.push_back(row);
     }

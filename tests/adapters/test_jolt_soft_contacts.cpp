@@ -174,7 +174,7 @@ START_TEST(overlapping_bodies_part_slowly) {
         most = std::max(most, world.energy());
     }
     ck_assert_double_le(deepest(contacts), 0.02);
-    ck_assert_double_le(most, 0.5 * 20 * 0.25 * 0.25); // that of both at push_speed
+    ck_assert_double_le(most, 0.5 * 20 * 0.2 * 0.2); // that of both at push_speed
 }
 END_TEST
 
