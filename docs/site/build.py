@@ -63,6 +63,7 @@ NAVIGATION = [
             "docs/tracks.md",
             "docs/cutting.md",
             "docs/surface-pairs.md",
+            "docs/jolt.md",
             "docs/ipc-broad-phase.md",
             "docs/files.md",
             "docs/file-formats.md",
