@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <tuple>
 
 namespace vox::sim {
 
@@ -16,24 +17,35 @@ namespace {
 
 constexpr double stiffest = 1e60; // softened to what a sweep can handle
 constexpr int sweeps = 4;
+constexpr double step_of_edge = 0.4;
 
 // Contacts are answered at once and without friction.
 constexpr ContactSettings settings{.friction = 0, .compliance = 0, .push_speed = 1e60, .slop = 0};
 
 // Lets the constraints keep the present shape.
-void rest_as_it_is(SoftBody& body) {
+void rest_as_it_is(SoftBody& body, std::size_t first_edge = 0) {
     const Vec3* x = body.positions.data();
-    for (EdgeConstraint& edge : body.edges) edge.rest_length = (x[edge.a] - x[edge.b]).norm();
+    for (EdgeConstraint& edge : std::span(body.edges).subspan(first_edge))
+        edge.rest_length = (x[edge.a] - x[edge.b]).norm();
     for (VolumeConstraint& tet : body.volumes) {
         const std::uint32_t* c = tet.corners;
         tet.rest_volume6 = volume6(x[c[0]], x[c[1]], x[c[2]], x[c[3]]);
     }
 }
 
+// The volume inside closed triangles, positive if they wind counter-clockwise as seen from outside.
+double enclosed(const SoftBody& body, std::span<const std::uint32_t> triangles) {
+    double sum = 0;
+    const Vec3* x = body.positions.data();
+    for (std::size_t t = 0; t < triangles.size(); t += 3)
+        sum += volume6(x[0], x[triangles[t]], x[triangles[t + 1]], x[triangles[t + 2]]);
+    return sum / 6;
+}
+
 } // namespace
 
 Resolver::Resolver(const vox_resolve_desc& desc, std::span<const vox_resolve_body> bodies)
-    : memory_(desc.allocator), desc_(desc), bodies_(&memory_), solid_(&memory_), place_(bodies.size(), &memory_),
+    : memory_(desc.allocator), desc_(desc), bodies_(&memory_), solid_(&memory_), first_bend_(&memory_), shapes_(bodies.size(), VOX_NULL_BODY, &memory_), overlaps_itself_(bodies.size(), false, &memory_), place_(bodies.size(), &memory_), index_(&memory_), triangles_(&memory_), gradients_(&memory_), enclosed_(&memory_), part_(&memory_), part_size_(&memory_),
       first_(&memory_), body_of_(&memory_), all_(&memory_), start_(&memory_), clear_(&memory_),
       faces_(&memory_), opposites_(&memory_), first_opposite_(&memory_), contacts_(&memory_) {
     if (desc_.max_iterations == 0) desc_.max_iterations = 400;
@@ -42,6 +54,7 @@ Resolver::Resolver(const vox_resolve_desc& desc, std::span<const vox_resolve_bod
         for (std::uint32_t b = 0; b < bodies.size(); ++b)
             if ((bodies[b].tet_count > 0) == with_tets) {
                 place_[b] = static_cast<std::uint32_t>(bodies_.size());
+                first_bend_.push_back(0);
                 bodies_.push_back(make(bodies[b], b));
                 bool closed = true; // as long as each edge has two faces
                 for (std::size_t e = 0; e < edges_.count; ++e)
@@ -51,7 +64,15 @@ Resolver::Resolver(const vox_resolve_desc& desc, std::span<const vox_resolve_bod
                 set_substep(*bodies_.back(), 1);
             }
     for (std::uint32_t b = 0; b < bodies_.size(); ++b) bodies_[b]->slot = b;
-    make_grid(bodies);
+    index_.resize(bodies.size());
+    for (std::uint32_t b = 0; b < bodies.size(); ++b) {
+        index_[place_[b]] = b;
+        triangles_.push_back(Array<std::uint32_t>(bodies[b].faces, bodies[b].faces + 3 * bodies[b].face_count, &memory_));
+        if (enclosed(*bodies_[place_[b]], triangles_.back()) < 0)
+            for (std::size_t t = 0; t < triangles_.back().size(); t += 3) std::swap(triangles_.back()[t + 1], triangles_.back()[t + 2]);
+    }
+    for (std::uint32_t b = 0; b < bodies.size(); ++b) enclosed_.push_back(enclosed(*bodies_[b], triangles_[index_[b]]));
+    make_grid();
 }
 
 BodyHandle Resolver::make(const vox_resolve_body& body, std::uint32_t index) {
@@ -76,17 +97,19 @@ BodyHandle Resolver::make(const vox_resolve_body& body, std::uint32_t index) {
     const auto spring = [&](std::uint32_t a, std::uint32_t b) {
         shell.edges.push_back({a - first, b - first, (all_[a] - all_[b]).norm(), 0, 0});
     };
-    std::size_t sides = 0;
     for (std::size_t e = 0; e < edges_.count; ++e) {
         const std::uint32_t a = edges_.vertices[2 * e], b = edges_.vertices[2 * e + 1];
         if (body_of_[a] != index || a == b) continue;
         spring(a, b);
         shell.mean_edge += shell.edges.back().rest_length;
-        ++sides;
-        for (std::uint32_t i = first_opposite_[e]; i + 1 < first_opposite_[e + 1]; ++i)
-            if (opposites_[i] != opposites_[i + 1]) spring(opposites_[i], opposites_[i + 1]);
     }
+    const std::size_t sides = shell.edges.size();
     shell.mean_edge /= static_cast<double>(std::max<std::size_t>(sides, 1));
+    for (std::size_t e = 0; e < edges_.count; ++e)
+        if (body_of_[edges_.vertices[2 * e]] == index)
+            for (std::uint32_t i = first_opposite_[e]; i + 1 < first_opposite_[e + 1]; ++i)
+                if (opposites_[i] != opposites_[i + 1]) spring(opposites_[i], opposites_[i + 1]);
+    first_bend_.back() = sides;
     shell.masses.assign(count, 0);
     for (const Corners& f : faces_)
         if (body_of_[f[0]] == index)
@@ -136,6 +159,8 @@ void Resolver::make_surface(std::span<const vox_resolve_body> bodies) {
     first_.push_back(static_cast<std::uint32_t>(all_.size()));
     start_ = Array<Vec3>(all_, &memory_);
     clear_.resize(all_.size());
+    part_.resize(all_.size());
+    part_size_.resize(all_.size());
     vox_surface_desc desc = vox_default_surface_desc();
     desc.worker_count = desc_.worker_count;
     desc.vertex_count = all_.size();
@@ -167,20 +192,19 @@ void Resolver::make_surface(std::span<const vox_resolve_body> bodies) {
     first_opposite_.push_back(static_cast<std::uint32_t>(opposites_.size()));
 }
 
-void Resolver::make_grid(std::span<const vox_resolve_body> bodies) {
+void Resolver::make_grid() {
     vox_grid_desc desc = vox_default_grid_desc();
     desc.flags = VOX_GRID_CONSTRAINTS | VOX_GRID_EDGES;
     desc.worker_count = desc_.worker_count;
     desc.byte_budget = UINT64_MAX;
     desc.allocator = desc_.allocator;
     grid_ = create_grid(desc);
-    for (std::uint32_t b = 0; b < bodies.size(); ++b) {
-        SoftBody& body = *bodies_[place_[b]];
-        if (body.tets.empty()) continue;
+    for (const auto& handle : bodies_) {
+        SoftBody& body = *handle;
         vox_mesh_desc mesh = vox_mesh_desc_doubles(body.positions[0].data(), body.positions.size(), body.tets.data(),
                                                    body.tets.size() / 4);
         mesh.flags = VOX_MESH_BORROW_TETS;
-        mesh.filter.flags = VOX_FILTER_SELF_COLLISION;
+        if (!body.tets.empty()) mesh.filter.flags = VOX_FILTER_SELF_COLLISION;
         check(vox_mesh_insert(grid_.get(), &mesh, &body.mesh));
         body.is_exact_in_grid = true;
     }
@@ -210,6 +234,24 @@ void Resolver::note(std::uint32_t vertex_a, std::uint32_t vertex_b, const double
     report_.least_distance = std::min(report_.least_distance, distance);
 }
 
+std::uint32_t Resolver::part_of(std::uint32_t v) {
+    while (part_[v] != v) v = part_[v] = part_[part_[v]];
+    return v;
+}
+
+// The parts of the surfaces between contours of intersection.
+void Resolver::find_parts(std::span<const vox_crossing> crossings) {
+    std::iota(part_.begin(), part_.end(), 0u);
+    for (std::uint32_t e = 0; e < edges_.count; ++e) {
+        while (!crossings.empty() && crossings.front().edge < e) crossings = crossings.subspan(1);
+        if (!crossings.empty() && crossings.front().edge == e) continue;
+        const std::uint32_t a = part_of(edges_.vertices[2 * std::size_t{e}]), b = part_of(edges_.vertices[2 * std::size_t{e} + 1]);
+        part_[std::max(a, b)] = std::min(a, b);
+    }
+    std::fill(part_size_.begin(), part_size_.end(), 0u);
+    for (std::uint32_t v = 0; v < part_.size(); ++v) ++part_size_[part_of(v)];
+}
+
 void Resolver::add_crossing(const vox_crossing& crossing) {
     const std::uint32_t* edge = edges_.vertices + 2 * std::size_t{crossing.edge};
     const Corners& face = faces_[crossing.face];
@@ -218,6 +260,30 @@ void Resolver::add_crossing(const vox_crossing& crossing) {
     if (!a.tets.empty() && !b.tets.empty()) return; // the grid knows the depth
     const Vec3 p = all_[edge[0]], q = all_[edge[1]], along = (q - p).normalized();
     const Vec3 normal = (all_[face[1]] - all_[face[0]]).cross(all_[face[2]] - all_[face[0]]).normalized();
+    // If the contour cuts the surface in two, the smaller part is on the wrong side.
+    const std::uint32_t part_p = part_of(edge[0]), part_q = part_of(edge[1]);
+    if (part_p != part_q) {
+        const auto before = [&](std::uint32_t x, std::uint32_t y) { return std::tuple(part_size_[x], x) < std::tuple(part_size_[y], y); };
+        const std::uint32_t wrong = before(part_p, part_q) ? edge[0] : edge[1];
+        const double high_p = normal.dot(p - all_[face[0]]), high_q = normal.dot(q - all_[face[0]]);
+        const double high = wrong == edge[0] ? high_p : high_q;
+        if (high_p * high_q < 0) {
+            Contact c{};
+            c.a = &a;
+            c.b = &b;
+            c.count_a = 1;
+            c.count = 4;
+            c.vertices[0] = wrong - first_[body_of_[wrong]];
+            c.weights[0] = 1;
+            for (std::uint32_t i = 0; i < 3; ++i) {
+                c.vertices[1 + i] = face[i] - first_[body_of_[face[0]]];
+                c.weights[1 + i] = -crossing.face_weights[i];
+            }
+            c.direction = high > 0 ? Vec3(-normal) : normal;
+            finish(c, std::min(std::abs(high), step_of_edge * (q - p).norm()) + desc_.gap);
+            return;
+        }
+    }
     const double slope = along.dot(normal);
     Vec3 shortening = Vec3::Zero();
     for (std::uint32_t i = first_opposite_[crossing.edge]; i < first_opposite_[crossing.edge + 1]; ++i) {
@@ -245,12 +311,7 @@ void Resolver::add_crossing(const vox_crossing& crossing) {
         c.weights[2 + i] = -crossing.face_weights[i];
     }
     c.direction = shortening / length;
-    c.depth = 0.25 * (q - p).norm() + desc_.gap;
-    for (std::uint32_t i = 0; i < c.count; ++i) {
-        c.depth += c.weights[i] * c.direction.dot(c.body(i).positions[c.vertices[i]]);
-        c.inverse_mass += c.weights[i] * c.weights[i] * c.body(i).inverse_masses[c.vertices[i]];
-    }
-    if (c.inverse_mass > 0) contacts_.push_back(c);
+    finish(c, step_of_edge * (q - p).norm() + desc_.gap);
 }
 
 void Resolver::add_close(vox_feature a, vox_feature b) {
@@ -330,7 +391,8 @@ void Resolver::move_rigidly() {
         Row row{};
         row.a = c.a->slot;
         row.b = c.b->slot;
-        if (row.a == row.b) continue;
+        const auto stays_or_is_solid = [&](const SoftBody& body) { return body.fixed || solid_[body.slot]; };
+        if (row.a == row.b || !stays_or_is_solid(*c.a) || !stays_or_is_solid(*c.b)) continue;
         row.normal = c.direction;
         row.depth = c.depth - c.slop;
         Vec3 point = Vec3::Zero();
@@ -372,12 +434,29 @@ void Resolver::move_rigidly() {
     }
 }
 
+// Gives a closed surface its first volume back.
+void Resolver::keep_enclosed(SoftBody& body) {
+    const auto& triangles = triangles_[index_[body.slot]];
+    gradients_.assign(body.positions.size(), Vec3::Zero());
+    const Vec3* x = body.positions.data();
+    for (std::size_t t = 0; t < triangles.size(); t += 3) {
+        const Vec3 normal = (x[triangles[t + 1]] - x[triangles[t]]).cross(x[triangles[t + 2]] - x[triangles[t]]);
+        for (std::size_t k = 0; k < 3; ++k) gradients_[triangles[t + k]] += normal / 6;
+    }
+    double answer = 0;
+    for (std::size_t v = 0; v < gradients_.size(); ++v) answer += body.inverse_masses[v] * gradients_[v].squaredNorm();
+    if (!(answer > 0)) return;
+    const double lambda = (enclosed_[body.slot] - enclosed(body, triangles)) / answer;
+    for (std::size_t v = 0; v < gradients_.size(); ++v) body.positions[v] += (lambda * body.inverse_masses[v]) * gradients_[v];
+}
+
 void Resolver::relax(int count) {
     for (const auto& body : bodies_) body->previous = body->positions;
     for (int sweep = 0; sweep < count; ++sweep) {
         for (const auto& body : bodies_) {
             solve_edges(*body);
             solve_volumes(*body);
+            if (body->tets.empty() && solid_[body->slot] && !body->fixed) keep_enclosed(*body);
         }
         solve_contacts(contacts_, settings, 1);
     }
@@ -391,17 +470,87 @@ void Resolver::relax(int count) {
             }
 }
 
+// The insides of closed surfaces as shapes that are where the surfaces are now.
+void Resolver::update_shapes() {
+    for (std::uint32_t b = 0; b < place_.size(); ++b) {
+        const SoftBody& body = *bodies_[place_[b]];
+        if (!body.tets.empty() || !solid_[place_[b]]) continue;
+        vox_shape_desc desc = vox_default_shape_desc();
+        desc.kind = VOX_SHAPE_SOLID;
+        desc.positions = vox_double_positions(body.positions[0].data(), body.positions.size());
+        desc.triangles = triangles_[b].data();
+        desc.triangle_count = triangles_[b].size() / 3;
+        vox_body& shape = shapes_[place_[b]];
+        if (shape != VOX_NULL_BODY) check(vox_body_remove(grid_.get(), shape));
+        shape = VOX_NULL_BODY;
+        if (vox_shape_insert(grid_.get(), &desc, &shape) != VOX_OK) {
+            solid_[place_[b]] = false;
+            continue;
+        }
+        check(vox_grid_set_pair_enabled(grid_.get(), body.mesh, shape, 0));
+    }
+}
+
+// Contacts with these. The closest point of the surface takes part.
+void Resolver::add_shape_contacts() {
+    vox_constraint_view view{};
+    check(vox_grid_get_constraints(grid_.get(), &view));
+    for (const vox_constraint& from : std::span(view.data, static_cast<std::size_t>(view.count))) {
+        const auto shape = std::find(shapes_.begin(), shapes_.end(), from.body_b);
+        SoftBody* const a = find_body(bodies_, from.body_a);
+        if (shape == shapes_.end() || !a || from.element_b == VOX_NONE) continue;
+        Contact c{};
+        c.a = a;
+        c.b = bodies_[static_cast<std::size_t>(shape - shapes_.begin())].get();
+        c.count_a = from.count_a;
+        std::copy_n(from.vertices, from.count_a, c.vertices);
+        std::copy_n(from.weights, from.count_a, c.weights);
+        c.direction = Vec3(from.normal[0], from.normal[1], from.normal[2]);
+        const std::uint32_t* corners = triangles_[index_[c.b->slot]].data() + 3 * std::size_t{from.element_b};
+        const Vec3 point = Vec3(from.position[0], from.position[1], from.position[2]) - from.gap * c.direction;
+        const Vec3 &p = c.b->positions[corners[0]], &q = c.b->positions[corners[1]], &r = c.b->positions[corners[2]];
+        const Vec3 normal = (q - p).cross(r - p);
+        const double area = normal.squaredNorm();
+        if (!(area > 0)) continue;
+        double second = std::clamp((point - p).cross(r - p).dot(normal) / area, 0.0, 1.0);
+        double third = std::clamp((q - p).cross(point - p).dot(normal) / area, 0.0, 1.0 - second);
+        const double weights[3] = {1 - second - third, second, third};
+        c.count = c.count_a + 3;
+        for (std::uint32_t i = 0; i < 3; ++i) {
+            c.vertices[c.count_a + i] = corners[i];
+            c.weights[c.count_a + i] = -weights[i];
+        }
+        finish(c, -from.gap);
+    }
+}
+
+// Completes a contact that is `depth` deep now.
+void Resolver::finish(Contact& c, double depth) {
+    c.depth = depth;
+    for (std::uint32_t i = 0; i < c.count; ++i) {
+        c.depth += c.weights[i] * c.direction.dot(c.body(i).positions[c.vertices[i]]);
+        c.inverse_mass += c.weights[i] * c.weights[i] * c.body(i).inverse_masses[c.vertices[i]];
+    }
+    if (c.inverse_mass > 0) contacts_.push_back(c);
+}
+
 bool Resolver::push_out() {
+    update_shapes();
     check(vox_grid_step(grid_.get()));
     gather_contacts(grid_.get(), bodies_, settings, contacts_);
-    double deepest = 0;
+    add_shape_contacts();
+    double& deepest = deepest_ = 0;
+    report_.inside = contacts_.size();
+    // A body that did not overlap itself at first was folded by its neighbours, and its shape undoes that.
+    if (report_.iterations == 0)
+        for (const Contact& c : contacts_) overlaps_itself_[c.a->slot] |= c.a == c.b;
+    erase_if(contacts_, [&](const Contact& c) { return c.a == c.b && !overlaps_itself_[c.a->slot]; });
     for (Contact& c : contacts_) {
         double depth = c.depth;
         for (std::uint32_t i = 0; i < c.count; ++i) depth -= c.weights[i] * c.direction.dot(c.body(i).positions[c.vertices[i]]);
         deepest = std::max(deepest, depth);
         c.slop = -1.5 * desc_.gap;
     }
-    report_.inside = contacts_.size();
     move_surface();
     const auto crossings = find_crossings();
     report_.crossings = crossings.size();
@@ -410,7 +559,10 @@ bool Resolver::push_out() {
         report_.crossings_before = crossings.size();
         report_.deepest_before = deepest;
     }
+    if (!crossings.empty()) find_parts(crossings);
     for (const vox_crossing& crossing : crossings) {
+        if (report_.iterations == 0 && body_of_[edges_.vertices[2 * std::size_t{crossing.edge}]] == body_of_[faces_[crossing.face][0]])
+            overlaps_itself_[place_[body_of_[faces_[crossing.face][0]]]] = true;
         note(edges_.vertices[2 * std::size_t{crossing.edge}], faces_[crossing.face][0], crossing.position, 0);
         add_crossing(crossing);
     }
@@ -440,15 +592,24 @@ bool Resolver::push_apart() {
 
 void Resolver::run() {
     if (all_.empty()) return;
+    // As long as moving whole bodies helps, they keep their shapes.
+    double best = std::numeric_limits<double>::infinity();
+    bool rigid = true;
     while (push_out() && report_.iterations < desc_.max_iterations) {
+        rigid = rigid && deepest_ > 0 && deepest_ < 0.95 * best;
+        best = std::min(best, deepest_);
         move_rigidly();
+        ++report_.iterations;
+        if (rigid) continue;
         for (Contact& c : contacts_) {
             double depth = c.depth;
             for (std::uint32_t i = 0; i < c.count; ++i) depth -= c.weights[i] * c.direction.dot(c.body(i).positions[c.vertices[i]]);
             c.slop = std::max(c.slop, depth - 0.25 * std::min(c.a->mean_edge, c.b->mean_edge));
         }
         relax(sweeps);
-        ++report_.iterations;
+        // Cloth keeps its new folds, and so does what passed through itself.
+        for (std::size_t b = 0; b < bodies_.size(); ++b)
+            if (bodies_[b]->tets.empty() && (!solid_[b] || overlaps_itself_[b])) rest_as_it_is(*bodies_[b], first_bend_[b]);
     }
     if (report_.crossings > 0 || !(desc_.gap > 0)) return;
     for (const auto& body : bodies_) rest_as_it_is(*body);

@@ -38,7 +38,7 @@ private:
 
     BodyHandle make(const vox_resolve_body& body, std::uint32_t index);
     void make_surface(std::span<const vox_resolve_body> bodies);
-    void make_grid(std::span<const vox_resolve_body> bodies);
+    void make_grid();
 
     void move_surface();
     std::span<const vox_crossing> find_crossings();
@@ -47,6 +47,12 @@ private:
     void add_crossing(const vox_crossing& crossing);
     void add_close(vox_feature a, vox_feature b);
     void note(std::uint32_t vertex_a, std::uint32_t vertex_b, const double position[3], double distance);
+    std::uint32_t part_of(std::uint32_t vertex);
+    void find_parts(std::span<const vox_crossing> crossings);
+    void keep_enclosed(SoftBody& body);
+    void update_shapes();
+    void add_shape_contacts();
+    void finish(Contact& contact, double depth);
     void move_rigidly();
     void relax(int sweeps);
 
@@ -54,7 +60,17 @@ private:
     vox_resolve_desc desc_;
     Array<BodyHandle> bodies_;        // surfaces first, as the grid's bodies ascend in id
     Array<bool> solid_;               // moves as a whole, too
+    Array<std::size_t> first_bend_;   // edge constraint of a surface that resists bending
+    Array<vox_body> shapes_;          // the inside of a closed surface, in the grid
+    Array<bool> overlaps_itself_;     // at first
     Array<std::uint32_t> place_;      // in bodies_, of each of the caller's bodies
+    Array<std::uint32_t> index_;      // the caller's, of each of bodies_
+    Array<Array<std::uint32_t>> triangles_; // of the caller's bodies without tetrahedra, outward if they are closed
+    Array<Vec3> gradients_;
+    Array<double> enclosed_;          // volume of each of bodies_ without tetrahedra
+    Array<std::uint32_t> part_;       // another vertex of the same part of a surface, or itself
+    Array<std::uint32_t> part_size_;  // in vertices
+    double deepest_ = 0;
     Array<std::uint32_t> first_;      // vertex of each of the caller's bodies in the surface, and the end
     Array<std::uint32_t> body_of_;    // the caller's body of each vertex of the surface
     Array<Vec3> all_;                 // positions of the surface
