@@ -45,7 +45,7 @@ double enclosed(const SoftBody& body, std::span<const std::uint32_t> triangles) 
 } // namespace
 
 Resolver::Resolver(const vox_resolve_desc& desc, std::span<const vox_resolve_body> bodies)
-    : memory_(desc.allocator), desc_(desc), bodies_(&memory_), solid_(&memory_), first_bend_(&memory_), shapes_(bodies.size(), VOX_NULL_BODY, &memory_), overlaps_itself_(bodies.size(), false, &memory_), place_(bodies.size(), &memory_), index_(&memory_), triangles_(&memory_), gradients_(&memory_), enclosed_(&memory_), part_(&memory_), part_size_(&memory_),
+    : memory_(desc.allocator), desc_(desc), bodies_(&memory_), solid_(&memory_), first_bend_(&memory_), shapes_(bodies.size(), VOX_NULL_BODY, &memory_), overlaps_itself_(bodies.size(), false, &memory_), place_(bodies.size(), &memory_), index_(&memory_), triangles_(&memory_), gradients_(&memory_), enclosed_(&memory_), part_(&memory_), wrong_(&memory_), part_size_(&memory_),
       first_(&memory_), body_of_(&memory_), all_(&memory_), start_(&memory_), clear_(&memory_),
       faces_(&memory_), opposites_(&memory_), first_opposite_(&memory_), contacts_(&memory_) {
     if (desc_.max_iterations == 0) desc_.max_iterations = 400;
@@ -160,6 +160,7 @@ void Resolver::make_surface(std::span<const vox_resolve_body> bodies) {
     start_ = Array<Vec3>(all_, &memory_);
     clear_.resize(all_.size());
     part_.resize(all_.size());
+    wrong_.resize(all_.size(), false);
     part_size_.resize(all_.size());
     vox_surface_desc desc = vox_default_surface_desc();
     desc.worker_count = desc_.worker_count;
@@ -241,6 +242,7 @@ std::uint32_t Resolver::part_of(std::uint32_t v) {
 
 // The parts of the surfaces between contours of intersection.
 void Resolver::find_parts(std::span<const vox_crossing> crossings) {
+    const auto all = crossings;
     std::iota(part_.begin(), part_.end(), 0u);
     for (std::uint32_t e = 0; e < edges_.count; ++e) {
         while (!crossings.empty() && crossings.front().edge < e) crossings = crossings.subspan(1);
@@ -250,6 +252,23 @@ void Resolver::find_parts(std::span<const vox_crossing> crossings) {
     }
     std::fill(part_size_.begin(), part_size_.end(), 0u);
     for (std::uint32_t v = 0; v < part_.size(); ++v) ++part_size_[part_of(v)];
+    if (report_.iterations > 0) return;
+    Array<bool> is_wrong(part_.size(), false, &memory_);
+    for (const vox_crossing& crossing : all) {
+        const std::uint32_t* edge = edges_.vertices + 2 * std::size_t{crossing.edge};
+        const std::uint32_t end = wrong_end(edge[0], edge[1]);
+        if (end != VOX_NONE) is_wrong[part_of(end)] = true;
+    }
+    for (std::uint32_t v = 0; v < part_.size(); ++v) wrong_[v] = is_wrong[part_of(v)];
+}
+
+// The end of a crossed edge that has to go back, or VOX_NONE if its surface does not tell. The first contours decide,
+// as later ones may have gaps.
+std::uint32_t Resolver::wrong_end(std::uint32_t p, std::uint32_t q) {
+    if (wrong_[p] != wrong_[q]) return wrong_[p] ? p : q;
+    const std::uint32_t of_p = part_of(p), of_q = part_of(q);
+    if (of_p == of_q) return VOX_NONE;
+    return std::tuple(part_size_[of_p], of_p) < std::tuple(part_size_[of_q], of_q) ? p : q;
 }
 
 void Resolver::add_crossing(const vox_crossing& crossing) {
@@ -261,10 +280,8 @@ void Resolver::add_crossing(const vox_crossing& crossing) {
     const Vec3 p = all_[edge[0]], q = all_[edge[1]], along = (q - p).normalized();
     const Vec3 normal = (all_[face[1]] - all_[face[0]]).cross(all_[face[2]] - all_[face[0]]).normalized();
     // If the contour cuts the surface in two, the smaller part is on the wrong side.
-    const std::uint32_t part_p = part_of(edge[0]), part_q = part_of(edge[1]);
-    if (part_p != part_q) {
-        const auto before = [&](std::uint32_t x, std::uint32_t y) { return std::tuple(part_size_[x], x) < std::tuple(part_size_[y], y); };
-        const std::uint32_t wrong = before(part_p, part_q) ? edge[0] : edge[1];
+    const std::uint32_t wrong = wrong_end(edge[0], edge[1]);
+    if (wrong != VOX_NONE) {
         const double high_p = normal.dot(p - all_[face[0]]), high_q = normal.dot(q - all_[face[0]]);
         const double high = wrong == edge[0] ? high_p : high_q;
         if (high_p * high_q < 0) {

@@ -48,6 +48,7 @@ private:
     void add_close(vox_feature a, vox_feature b);
     void note(std::uint32_t vertex_a, std::uint32_t vertex_b, const double position[3], double distance);
     std::uint32_t part_of(std::uint32_t vertex);
+    std::uint32_t wrong_end(std::uint32_t p, std::uint32_t q);
     void find_parts(std::span<const vox_crossing> crossings);
     void keep_enclosed(SoftBody& body);
     void update_shapes();
@@ -69,6 +70,7 @@ private:
     Array<Vec3> gradients_;
     Array<double> enclosed_;          // volume of each of bodies_ without tetrahedra
     Array<std::uint32_t> part_;       // another vertex of the same part of a surface, or itself
+    Array<bool> wrong_;               // vertices on the wrong side of a first contour
     Array<std::uint32_t> part_size_;  // in vertices
     double deepest_ = 0;
     Array<std::uint32_t> first_;      // vertex of each of the caller's bodies in the surface, and the end
