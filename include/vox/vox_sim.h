@@ -173,9 +173,9 @@ typedef struct vox_resolve_body {
     /* Results, which vox_resolve sets: */
     uint64_t moved_vertices;
     double largest_move;  /* of a vertex */
-    double volume_before; /* of the tetrahedra, or that a surface encloses */
-    double volume;
-    uint64_t inverted_tets; /* with a positive volume before, and none now, or the other way round */
+    double volume_before; /* of the tetrahedra or in a closed surface; else 0 */
+    double volume;        /* afterwards */
+    uint64_t inverted_tets; /* whose signed volume has another sign than before */
 } vox_resolve_body;
 
 static inline vox_resolve_body vox_default_resolve_body(void) {
@@ -184,7 +184,7 @@ static inline vox_resolve_body vox_default_resolve_body(void) {
     return body;
 }
 
-/* A place where something is left: an edge that meets a face, or two features nearer to each other than the gap. */
+/* A place where something is left: an edge that meets a face, or two features closer than the gap. */
 typedef struct vox_resolve_place {
     uint32_t body_a; /* indices into the bodies, which may be the same */
     uint32_t body_b;
@@ -198,7 +198,7 @@ typedef struct vox_resolve_desc {
     uint32_t worker_count;   /* as in vox_grid_desc */
     uint32_t max_iterations; /* 0: 400 */
     uint32_t reserved;       /* 0 */
-    double gap;              /* least distance wanted between features without a common vertex */
+    double gap;              /* least distance of features without a common vertex; 0: they only do not meet */
     double max_move;         /* no vertex moves further than this; 0: no limit */
     VOX_OPTIONAL vox_resolve_place* places; /* receives the first place_capacity places where something is left */
     uint64_t place_capacity;
@@ -214,13 +214,13 @@ static inline vox_resolve_desc vox_default_resolve_desc(void) {
 /* What was done and what is left. */
 typedef struct vox_resolve_report {
     uint32_t struct_size;
-    uint32_t resolved;         /* 1: nothing is left */
-    uint64_t crossings_before; /* edges that met a face */
-    uint64_t crossings;        /* and still do */
-    uint64_t close_pairs;      /* other pairs nearer than the gap, if there are no crossings */
-    uint64_t inside;           /* vertices that are in tetrahedra of another body, if there are no crossings */
-    double deepest_before;     /* vertex or edge in tetrahedra */
-    double least_distance;     /* of pairs nearer than the gap; the gap if there are none */
+    uint32_t resolved;        /* 1: nothing is left; else 0 */
+    uint64_t first_crossings; /* edges that met a face before */
+    uint64_t crossings;       /* edges that still do */
+    uint64_t inside_vertices; /* vertices and edges that still are in a body */
+    uint64_t close_pairs;     /* pairs closer than the gap; 0 if there are crossings */
+    double first_depth;       /* greatest depth in a body before */
+    double least_distance;    /* of close pairs; 0 if there are crossings; else the gap */
     double largest_move;
     uint64_t iterations;
     uint64_t place_count; /* of crossings and close pairs together */
@@ -228,8 +228,8 @@ typedef struct vox_resolve_report {
 
 /* Moves bodies apart until no edge meets a face and all features without a common vertex are `gap` apart, by small
  * steps of XPBD that keep the lengths of edges and the volumes of tetrahedra. Once nothing crosses, no step makes a
- * crossing. The same input gives the same bits, with any
- * number of workers. Set struct_size of the report first.
+ * crossing. A closed surface is a body with an inside; other surfaces have two sides. The same input gives the same
+ * bits, with any number of workers. Set struct_size of the report first.
  * Errors: INVALID_ARGUMENT, INVALID_MESH, NON_FINITE, LIMIT, BUDGET, OUT_OF_MEMORY; positions are then as before. */
 VOX_EXPERIMENTAL vox_result vox_resolve(VOX_OPTIONAL const vox_resolve_desc* desc, vox_resolve_body* bodies,
                                         uint64_t body_count, vox_resolve_report* out_report);

@@ -12,8 +12,8 @@ namespace vox::sim {
 
 namespace {
 
-constexpr int sweeps = 4;              // over the constraints, from one detection to the next
-constexpr double step_part = 0.25;     // of the mean edge: how far a contact pushes in these
+constexpr int sweeps = 4;               // over the constraints, from one detection to the next
+constexpr double step_part = 0.25;      // of the mean edge: how far a contact pushes in these
 constexpr std::uint64_t patience = 120; // iterations without progress before it gives up
 
 // Lets edges from `first` on, and all volumes, keep their present sizes.
@@ -170,7 +170,8 @@ void Resolver::push_out() {
     std::uint64_t least = UINT64_MAX, since = 0;
     bool only_whole = true;
     for (std::uint32_t i = 0; find_overlaps() && i < desc_.max_iterations && since < patience; ++i) {
-        const std::uint64_t left = report_.inside + report_.crossings;
+        if (contacts_.empty()) break; // nothing that overlaps can move
+        const std::uint64_t left = report_.inside_vertices + report_.crossings;
         since = left < least ? 0 : since + 1;
         least = std::min(least, left);
         only_whole = only_whole && deepest_ > 0 && deepest_ < 0.95 * least_depth;
@@ -195,6 +196,7 @@ void Resolver::push_out() {
 void Resolver::push_apart() {
     for (const auto& body : bodies_) rest_as_it_is(*body, 0);
     for (std::uint32_t i = 0; find_close() && i < desc_.max_iterations; ++i) {
+        if (contacts_.empty()) break;
         check(vox_surface_find_clearances(surface_.get(), 2 * desc_.gap, clearances_.data()));
         relax();
         if (desc_.max_move > 0) keep_near(start_, nullptr);
@@ -236,7 +238,7 @@ void Resolver::write(std::span<vox_resolve_body> bodies, vox_resolve_report& rep
         }
         report_.largest_move = std::max(report_.largest_move, out.largest_move);
     }
-    report_.resolved = report_.crossings + report_.inside + report_.close_pairs == 0;
+    report_.resolved = report_.crossings + report_.inside_vertices + report_.close_pairs == 0;
     report_.struct_size = report.struct_size;
     std::memcpy(&report, &report_, std::min<std::size_t>(report.struct_size, sizeof report_));
 }

@@ -108,7 +108,7 @@ bool Resolver::find_overlaps() {
     gather_contacts(grid_.get(), bodies_, {.friction = 0, .compliance = 0, .push_speed = 0, .slop = 0},
                     contacts_);
     add_shape_contacts();
-    report_.inside = contacts_.size();
+    report_.inside_vertices = contacts_.size();
     // A body that did not overlap itself at first was folded by its neighbours, and its shape undoes that.
     if (is_first)
         for (const Contact& c : contacts_) members_[c.a->slot].overlaps_itself |= c.a == c.b;
@@ -126,8 +126,8 @@ bool Resolver::find_overlaps() {
     report_.place_count = 0;
     report_.least_distance = desc_.gap;
     if (is_first) {
-        report_.crossings_before = crossings.size();
-        report_.deepest_before = deepest_;
+        report_.first_crossings = crossings.size();
+        report_.first_depth = deepest_;
     }
     if (!crossings.empty()) find_parts(crossings);
     for (const vox_crossing& crossing : crossings) {
@@ -136,7 +136,7 @@ bool Resolver::find_overlaps() {
         if (is_first && body_of_[a] == body_of_[b]) members_[body_of_[a]].overlaps_itself = true;
         add_crossing(crossing);
     }
-    return report_.inside + report_.crossings > 0;
+    return report_.inside_vertices + report_.crossings > 0;
 }
 
 // Contacts with the insides of closed surfaces, where the closest point takes part.
