@@ -15,6 +15,7 @@ namespace {
 constexpr int sweeps = 4;               // over the constraints, from one detection to the next
 constexpr double step_part = 0.25;      // of the mean edge: how far a contact pushes in these
 constexpr std::uint64_t patience = 120; // iterations without progress before it gives up
+constexpr double turn_cost = 4; // times the inertia, as a turn moves far ends further than the contact
 
 // Lets edges from `first` on, and all volumes, keep their present sizes.
 void rest_as_it_is(SoftBody& body, std::size_t first) {
@@ -48,7 +49,7 @@ Rigid rigid_of(const SoftBody& body) {
         inertia += body.masses[v] * (d.squaredNorm() * Eigen::Matrix3d::Identity() - d * d.transpose());
     }
     r.inverse_mass = 1 / mass;
-    if (inertia.determinant() > 0) r.inverse_inertia = inertia.inverse();
+    if (inertia.determinant() > 0) r.inverse_inertia = inertia.inverse() / turn_cost;
     return r;
 }
 
