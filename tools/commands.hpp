@@ -11,6 +11,7 @@ void add_suggest(CommandLine& line);
 void add_collide(CommandLine& line);
 void add_demo(CommandLine& line);
 void add_replay(CommandLine& line);
+void add_resolve(CommandLine& line);
 void add_tetrahedralize(CommandLine& line);
 void add_sweep(CommandLine& line);
 

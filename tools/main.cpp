@@ -1,5 +1,5 @@
-// The command line tool vox. Exit codes: 0 for success, 1 for bad input, 2 for wrong usage, 3 if vox check
-// finds crossings.
+// The command line tool vox. Exit codes: 0 for success, 1 for bad input, 2 for wrong usage, 3 if vox check or vox resolve
+// leaves crossings.
 #include "commands.hpp"
 #include "failure.hpp"
 #include "manual.hpp"
@@ -56,6 +56,7 @@ int run(int argc, char** argv) {
     tool::add_collide(line);
     tool::add_replay(line);
     tool::add_sweep(line);
+    tool::add_resolve(line);
     tool::add_tetrahedralize(line);
     add_generate(line);
     int code = 0;

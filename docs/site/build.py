@@ -54,6 +54,7 @@ NAVIGATION = [
         "Tasks": [
             "docs/contacts.md",
             "docs/push-apart.md",
+            "docs/resolve.md",
             "docs/events.md",
             "docs/filters.md",
             "docs/edges.md",

@@ -156,6 +156,86 @@ VOX_API vox_result vox_sim_get_energy(const vox_sim* sim, vox_body body, vox_sim
 /* Gets sizes, totals and times (docs/sim.md lists them). They live until the next call that changes the simulation. */
 VOX_API vox_result vox_sim_get_counters(const vox_sim* sim, vox_counter_view* out_view);
 
+/* ---- repair ----------------------------------------------------------------------------------- */
+
+typedef enum vox_resolve_flags {
+    VOX_RESOLVE_FIXED = 1 /* the body does not move */
+} vox_resolve_flags;
+
+/* A body whose intersections are to go: tetrahedra, or a surface without any. */
+typedef struct vox_resolve_body {
+    uint32_t struct_size;
+    uint32_t flags;    /* vox_resolve_flags, combined with | */
+    double* positions; /* 3 * vertex_count; vox_resolve replaces them */
+    uint64_t vertex_count;
+    VOX_OPTIONAL const uint32_t* tets; /* 4 * tet_count vertex indices, in either winding */
+    uint64_t tet_count;
+    VOX_OPTIONAL const uint32_t* faces; /* 3 * face_count vertex indices; a body with tetrahedra has none */
+    uint64_t face_count;
+    /* Results, which vox_resolve sets: */
+    uint64_t moved_vertices;
+    double largest_move;  /* of a vertex */
+    double volume_before; /* of the tetrahedra or in a closed surface; else 0 */
+    double volume;        /* afterwards */
+    uint64_t inverted_tets; /* whose signed volume has another sign than before */
+} vox_resolve_body;
+
+static inline vox_resolve_body vox_default_resolve_body(void) {
+    vox_resolve_body body = VOX_ZERO;
+    body.struct_size = (uint32_t)sizeof body;
+    return body;
+}
+
+/* A place where something is left: an edge that meets a face, or two features closer than the gap. */
+typedef struct vox_resolve_place {
+    uint32_t body_a; /* indices into the bodies, which may be the same */
+    uint32_t body_b;
+    double distance; /* 0: they meet */
+    double position[3];
+} vox_resolve_place;
+
+/* Settings; all 0 by default. */
+typedef struct vox_resolve_desc {
+    uint32_t struct_size;
+    uint32_t worker_count;   /* as in vox_grid_desc */
+    uint32_t max_iterations; /* 0: 400 */
+    uint32_t reserved;       /* 0 */
+    double gap;              /* least distance of features without a common vertex; 0: they only do not meet */
+    double max_move;         /* no vertex moves further than this; 0: no limit */
+    VOX_OPTIONAL vox_resolve_place* places; /* receives the first place_capacity places where something is left */
+    uint64_t place_capacity;
+    VOX_OPTIONAL const vox_allocator* allocator;
+} vox_resolve_desc;
+
+static inline vox_resolve_desc vox_default_resolve_desc(void) {
+    vox_resolve_desc desc = VOX_ZERO;
+    desc.struct_size = (uint32_t)sizeof desc;
+    return desc;
+}
+
+/* What was done and what is left. */
+typedef struct vox_resolve_report {
+    uint32_t struct_size;
+    uint32_t resolved;        /* 1: nothing is left; else 0 */
+    uint64_t first_crossings; /* edges that met a face before */
+    uint64_t crossings;       /* edges that still do */
+    uint64_t inside_vertices; /* vertices and edges that still are in a body */
+    uint64_t close_pairs;     /* pairs closer than the gap; 0 if there are crossings */
+    double first_depth;       /* greatest depth in a body before */
+    double least_distance;    /* of close pairs; 0 if there are crossings; else the gap */
+    double largest_move;
+    uint64_t iterations;
+    uint64_t place_count; /* of crossings and close pairs together */
+} vox_resolve_report;
+
+/* Moves bodies apart until no edge meets a face and all features without a common vertex are `gap` apart, by small
+ * steps of XPBD that keep the lengths of edges and the volumes of tetrahedra. Once nothing crosses, no step makes a
+ * crossing. A closed surface is a body with an inside; other surfaces have two sides. The same input gives the same
+ * bits, with any number of workers. Set struct_size of the report first.
+ * Errors: INVALID_ARGUMENT, INVALID_MESH, NON_FINITE, LIMIT, BUDGET, OUT_OF_MEMORY; positions are then as before. */
+VOX_EXPERIMENTAL vox_result vox_resolve(VOX_OPTIONAL const vox_resolve_desc* desc, vox_resolve_body* bodies,
+                                        uint64_t body_count, vox_resolve_report* out_report);
+
 #ifdef __cplusplus
 }
 #endif

@@ -1,6 +1,8 @@
 // The C border of the simulation.
 #include "base/border.hpp"
+#include "base/llu.hpp"
 #include "base/structs.hpp"
+#include "sim/resolve.hpp"
 #include "sim/sim.hpp"
 
 #include <cmath>
@@ -71,4 +73,23 @@ vox_result vox_sim_get_energy(const vox_sim* sim, vox_body body, vox_sim_energy*
 
 vox_result vox_sim_get_counters(const vox_sim* sim, vox_counter_view* out_view) {
     return border(sim, "sim", out_view, "out_view", [&] { return sim->counters(); });
+}
+
+// ---- repair ---------------------------------------------------------------------------------------
+
+vox_result vox_resolve(const vox_resolve_desc* desc, vox_resolve_body* bodies, uint64_t body_count,
+                       vox_resolve_report* out_report) {
+    return border([&] {
+        require(out_report, "out_report");
+        check_struct_size(out_report->struct_size, "out_report");
+        const vox_resolve_desc settings = desc ? read_struct(desc, "desc") : vox_default_resolve_desc();
+        check_allocator(settings.allocator, "resolve allocator");
+        if (body_count > 0) require(bodies, "bodies");
+        if (body_count > VOX_MAX_BODIES / 2)
+            refuse(format("there are %llu bodies, the limit is %u", llu(body_count), VOX_MAX_BODIES / 2));
+        const std::span list(bodies, static_cast<std::size_t>(body_count));
+        sim::Resolver resolver(settings, list);
+        resolver.run();
+        resolver.write(list, *out_report);
+    });
 }

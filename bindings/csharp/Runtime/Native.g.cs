@@ -406,6 +406,13 @@ namespace Voxtet
         Fixed = 2,
     }
 
+    [Flags]
+    public enum ResolveFlags : uint
+    {
+        /// <summary>the body does not move</summary>
+        Fixed = 1,
+    }
+
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Uint5
     {
@@ -1827,6 +1834,93 @@ namespace Voxtet
         public double max_speed;
     }
 
+    /// <summary>A body whose intersections are to go: tetrahedra, or a surface without any.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct ResolveBody
+    {
+        public uint struct_size;
+        /// <summary>vox_resolve_flags, combined with |</summary>
+        public ResolveFlags flags;
+        /// <summary>3 * vertex_count; vox_resolve replaces them</summary>
+        public double* positions;
+        public ulong vertex_count;
+        /// <summary>4 * tet_count vertex indices, in either winding</summary>
+        public uint* tets;
+        public ulong tet_count;
+        /// <summary>3 * face_count vertex indices; a body with tetrahedra has none</summary>
+        public uint* faces;
+        public ulong face_count;
+        /// <summary>Results, which vox_resolve sets:</summary>
+        public ulong moved_vertices;
+        /// <summary>of a vertex</summary>
+        public double largest_move;
+        /// <summary>of the tetrahedra or in a closed surface; else 0</summary>
+        public double volume_before;
+        /// <summary>afterwards</summary>
+        public double volume;
+        /// <summary>whose signed volume has another sign than before</summary>
+        public ulong inverted_tets;
+    }
+
+    /// <summary>A place where something is left: an edge that meets a face, or two features closer than the
+    /// gap.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 40)]
+    public struct ResolvePlace
+    {
+        /// <summary>indices into the bodies, which may be the same</summary>
+        public uint body_a;
+        public uint body_b;
+        /// <summary>0: they meet</summary>
+        public double distance;
+        public Double3 position;
+    }
+
+    /// <summary>Settings; all 0 by default.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct ResolveDesc
+    {
+        public uint struct_size;
+        /// <summary>as in vox_grid_desc</summary>
+        public uint worker_count;
+        /// <summary>0: 400</summary>
+        public uint max_iterations;
+        /// <summary>0</summary>
+        public uint reserved;
+        /// <summary>least distance of features without a common vertex; 0: they only do not meet</summary>
+        public double gap;
+        /// <summary>no vertex moves further than this; 0: no limit</summary>
+        public double max_move;
+        /// <summary>receives the first place_capacity places where something is left</summary>
+        public ResolvePlace* places;
+        public ulong place_capacity;
+        public Allocator* allocator;
+    }
+
+    /// <summary>What was done and what is left.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 80)]
+    public struct ResolveReport
+    {
+        public uint struct_size;
+        /// <summary>1: nothing is left; else 0</summary>
+        public uint resolved;
+        /// <summary>edges that met a face before</summary>
+        public ulong first_crossings;
+        /// <summary>edges that still do</summary>
+        public ulong crossings;
+        /// <summary>vertices and edges that still are in a body</summary>
+        public ulong inside_vertices;
+        /// <summary>pairs closer than the gap; 0 if there are crossings</summary>
+        public ulong close_pairs;
+        /// <summary>greatest depth in a body before</summary>
+        public double first_depth;
+        /// <summary>of close pairs; 0 if there are crossings; else the gap</summary>
+        public double least_distance;
+        public double largest_move;
+        public ulong iterations;
+        /// <summary>of crossings and close pairs together</summary>
+        public ulong place_count;
+    }
+
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     internal delegate void Task(ulong begin, ulong end, uint worker, IntPtr context);
 
@@ -2454,6 +2548,12 @@ namespace Voxtet
         /// <summary>Gets sizes, totals and times (docs/sim.md lists them).</summary>
         [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_sim_get_counters(IntPtr sim, CounterView* out_view);
+
+        /// <summary>Moves bodies apart until no edge meets a face and all features without a common vertex are `gap`
+        /// apart, by small steps of XPBD that keep the lengths of edges and the volumes of tetrahedra.</summary>
+        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_resolve(ResolveDesc* desc, ResolveBody* bodies, ulong body_count,
+            ResolveReport* out_report);
     }
 
     /// <summary>A size or an offset here, and what it is for the library.</summary>
@@ -3436,6 +3536,71 @@ namespace Voxtet
             entries.Add(Entry("vox_sim_energy.max_speed", (byte*)&s.max_speed - begin, 80, 80));
         }
 
+        static void AddResolveBody(List<LayoutEntry> entries)
+        {
+            ResolveBody s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_resolve_body", sizeof(ResolveBody), 96, 96));
+            entries.Add(Entry("vox_resolve_body.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_resolve_body.flags", (byte*)&s.flags - begin, 4, 4));
+            entries.Add(Entry("vox_resolve_body.positions", (byte*)&s.positions - begin, 8, 8));
+            entries.Add(Entry("vox_resolve_body.vertex_count", (byte*)&s.vertex_count - begin, 16, 16));
+            entries.Add(Entry("vox_resolve_body.tets", (byte*)&s.tets - begin, 24, 24));
+            entries.Add(Entry("vox_resolve_body.tet_count", (byte*)&s.tet_count - begin, 32, 32));
+            entries.Add(Entry("vox_resolve_body.faces", (byte*)&s.faces - begin, 40, 40));
+            entries.Add(Entry("vox_resolve_body.face_count", (byte*)&s.face_count - begin, 48, 48));
+            entries.Add(Entry("vox_resolve_body.moved_vertices", (byte*)&s.moved_vertices - begin, 56, 56));
+            entries.Add(Entry("vox_resolve_body.largest_move", (byte*)&s.largest_move - begin, 64, 64));
+            entries.Add(Entry("vox_resolve_body.volume_before", (byte*)&s.volume_before - begin, 72, 72));
+            entries.Add(Entry("vox_resolve_body.volume", (byte*)&s.volume - begin, 80, 80));
+            entries.Add(Entry("vox_resolve_body.inverted_tets", (byte*)&s.inverted_tets - begin, 88, 88));
+        }
+
+        static void AddResolvePlace(List<LayoutEntry> entries)
+        {
+            ResolvePlace s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_resolve_place", sizeof(ResolvePlace), 40, 40));
+            entries.Add(Entry("vox_resolve_place.body_a", (byte*)&s.body_a - begin, 0, 0));
+            entries.Add(Entry("vox_resolve_place.body_b", (byte*)&s.body_b - begin, 4, 4));
+            entries.Add(Entry("vox_resolve_place.distance", (byte*)&s.distance - begin, 8, 8));
+            entries.Add(Entry("vox_resolve_place.position", (byte*)&s.position - begin, 16, 16));
+        }
+
+        static void AddResolveDesc(List<LayoutEntry> entries)
+        {
+            ResolveDesc s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_resolve_desc", sizeof(ResolveDesc), 56, 56));
+            entries.Add(Entry("vox_resolve_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_resolve_desc.worker_count", (byte*)&s.worker_count - begin, 4, 4));
+            entries.Add(Entry("vox_resolve_desc.max_iterations", (byte*)&s.max_iterations - begin, 8, 8));
+            entries.Add(Entry("vox_resolve_desc.reserved", (byte*)&s.reserved - begin, 12, 12));
+            entries.Add(Entry("vox_resolve_desc.gap", (byte*)&s.gap - begin, 16, 16));
+            entries.Add(Entry("vox_resolve_desc.max_move", (byte*)&s.max_move - begin, 24, 24));
+            entries.Add(Entry("vox_resolve_desc.places", (byte*)&s.places - begin, 32, 32));
+            entries.Add(Entry("vox_resolve_desc.place_capacity", (byte*)&s.place_capacity - begin, 40, 40));
+            entries.Add(Entry("vox_resolve_desc.allocator", (byte*)&s.allocator - begin, 48, 48));
+        }
+
+        static void AddResolveReport(List<LayoutEntry> entries)
+        {
+            ResolveReport s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_resolve_report", sizeof(ResolveReport), 80, 80));
+            entries.Add(Entry("vox_resolve_report.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_resolve_report.resolved", (byte*)&s.resolved - begin, 4, 4));
+            entries.Add(Entry("vox_resolve_report.first_crossings", (byte*)&s.first_crossings - begin, 8, 8));
+            entries.Add(Entry("vox_resolve_report.crossings", (byte*)&s.crossings - begin, 16, 16));
+            entries.Add(Entry("vox_resolve_report.inside_vertices", (byte*)&s.inside_vertices - begin, 24, 24));
+            entries.Add(Entry("vox_resolve_report.close_pairs", (byte*)&s.close_pairs - begin, 32, 32));
+            entries.Add(Entry("vox_resolve_report.first_depth", (byte*)&s.first_depth - begin, 40, 40));
+            entries.Add(Entry("vox_resolve_report.least_distance", (byte*)&s.least_distance - begin, 48, 48));
+            entries.Add(Entry("vox_resolve_report.largest_move", (byte*)&s.largest_move - begin, 56, 56));
+            entries.Add(Entry("vox_resolve_report.iterations", (byte*)&s.iterations - begin, 64, 64));
+            entries.Add(Entry("vox_resolve_report.place_count", (byte*)&s.place_count - begin, 72, 72));
+        }
+
         /// <summary>All structs and fields. A program whose entries differ must not call the library.</summary>
         internal static List<LayoutEntry> Entries()
         {
@@ -3508,6 +3673,10 @@ namespace Voxtet
             AddSimBodyDesc(entries);
             AddSimBodyView(entries);
             AddSimEnergy(entries);
+            AddResolveBody(entries);
+            AddResolvePlace(entries);
+            AddResolveDesc(entries);
+            AddResolveReport(entries);
             return entries;
         }
     }

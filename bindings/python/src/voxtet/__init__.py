@@ -24,6 +24,7 @@ from .transfer import Embedding, Transfer, embed, sample
 
 if TYPE_CHECKING:
     from . import experiment, io, ipctk, mpi, mujoco, newton, sim, skfem, surface
+    from .sim import resolve
 
 build_info: str = _vox.vox_build_info().decode()
 __version__: str = build_info.split()[1].rstrip(",")
@@ -34,4 +35,7 @@ def __getattr__(name: str) -> Any:
     if name in ("experiment", "io", "ipctk", "mpi", "mujoco", "newton", "sim", "skfem", "surface"):
         import importlib
         return importlib.import_module("." + name, __name__)
+    if name == "resolve":
+        from .sim import resolve
+        return resolve
     raise AttributeError(f"module 'voxtet' has no attribute {name!r}")

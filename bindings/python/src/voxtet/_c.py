@@ -248,6 +248,10 @@ class SimBodyFlags(enum.IntFlag):
     FIXED = 2
 
 
+class ResolveFlags(enum.IntFlag):
+    FIXED = 1
+
+
 class vox_result(c_int32):
     """Marks the functions that can fail."""
 
@@ -1291,6 +1295,76 @@ dtypes["vox_sim_energy"] = dtype({
     "itemsize": 88})
 
 
+class vox_resolve_body(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("flags", c_uint32),
+        ("positions", c_void_p),
+        ("vertex_count", c_uint64),
+        ("tets", c_void_p),
+        ("tet_count", c_uint64),
+        ("faces", c_void_p),
+        ("face_count", c_uint64),
+        ("moved_vertices", c_uint64),
+        ("largest_move", c_double),
+        ("volume_before", c_double),
+        ("volume", c_double),
+        ("inverted_tets", c_uint64),
+    ]
+
+
+class vox_resolve_place(Structure):
+    _fields_ = [
+        ("body_a", c_uint32),
+        ("body_b", c_uint32),
+        ("distance", c_double),
+        ("position", c_double * 3),
+    ]
+
+dtypes["vox_resolve_place"] = dtype({
+    "names": ["body_a", "body_b", "distance", "position"],
+    "formats": ["u4", "u4", "f8", ("f8", (3,))],
+    "offsets": [0, 4, 8, 16],
+    "itemsize": 40})
+
+
+class vox_resolve_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("worker_count", c_uint32),
+        ("max_iterations", c_uint32),
+        ("reserved", c_uint32),
+        ("gap", c_double),
+        ("max_move", c_double),
+        ("places", c_void_p),
+        ("place_capacity", c_uint64),
+        ("allocator", POINTER(vox_allocator)),
+    ]
+
+
+class vox_resolve_report(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("resolved", c_uint32),
+        ("first_crossings", c_uint64),
+        ("crossings", c_uint64),
+        ("inside_vertices", c_uint64),
+        ("close_pairs", c_uint64),
+        ("first_depth", c_double),
+        ("least_distance", c_double),
+        ("largest_move", c_double),
+        ("iterations", c_uint64),
+        ("place_count", c_uint64),
+    ]
+
+dtypes["vox_resolve_report"] = dtype({
+    "names": ["struct_size", "resolved", "first_crossings", "crossings", "inside_vertices", "close_pairs",
+        "first_depth", "least_distance", "largest_move", "iterations", "place_count"],
+    "formats": ["u4", "u4", "u8", "u8", "u8", "u8", "f8", "f8", "f8", "u8", "u8"],
+    "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 64, 72],
+    "itemsize": 80})
+
+
 # What vox_default_X sets in a struct, beside struct_size, where that is not all 0.
 DEFAULTS: dict[str, dict[str, Any]] = {
     "vox_sim_desc": {'substeps': 10, 'detect_every': 1, 'gravity': [0, 0, -9.81], 'max_time_step': 0.03333333333333333, 'floor_normal': [0, 0, 1], 'friction': 0.5, 'max_push_speed': 1, 'contact_slop': -1},
@@ -1442,6 +1516,7 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_sim_body_set_state": (vox_result, (c_void_p, c_uint32, c_void_p, c_void_p)),
         "vox_sim_get_energy": (vox_result, (c_void_p, c_uint32, POINTER(vox_sim_energy))),
         "vox_sim_get_counters": (vox_result, (c_void_p, POINTER(vox_counter_view))),
+        "vox_resolve": (vox_result, (POINTER(vox_resolve_desc), c_void_p, c_uint64, POINTER(vox_resolve_report))),
     },
 }
 

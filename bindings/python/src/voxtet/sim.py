@@ -14,7 +14,7 @@ True
 from __future__ import annotations
 
 import ctypes
-from typing import Any, Iterator, NamedTuple, Optional, Union
+from typing import Any, Iterable, Iterator, NamedTuple, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -290,3 +290,67 @@ class Sim:
         with self._lock:
             _sim.vox_sim_get_counters(self._pointer, view)
             return {c.name.decode(): c.value for c in (_c.vox_counter * view.count).from_address(view.data)}
+
+
+class Resolved(NamedTuple):
+    """What `resolve` did and what is left (vox_resolve_report)."""
+
+    positions: list[NDArray[np.float64]]  # of each body
+    left: NDArray[Any]  # places where something is left: bodies, distance, position (vox_resolve_place)
+    moves: list[float]  # of each body, the largest of a vertex
+    volumes: list[tuple[float, float]]  # of each body, before and after; 0 where there is none
+    inverted_tets: list[int]
+    resolved: bool  # nothing is left
+    first_crossings: int
+    crossings: int
+    inside_vertices: int
+    close_pairs: int
+    first_depth: float
+    least_distance: float
+    largest_move: float
+    iterations: int
+
+
+def resolve(bodies: Iterable[Any], *, gap: float = 0.0, fixed: Iterable[int] = (), max_move: float = 0.0,
+            max_iterations: int = 0, workers: int = 1, places: int = 1000) -> Resolved:
+    """Moves bodies and surfaces apart until nothing passes through anything (vox_resolve). A body is a pair of positions and
+    tetrahedra (m, 4) or triangles (m, 3), or a mesh that has them. fixed: indices of bodies that stay. places: the most that
+    `left` lists.
+
+    >>> import voxtet.io
+    >>> ball = voxtet.io.make_ball(1, 0.3)
+    >>> done = resolve([(ball.positions, ball.tets), (ball.positions + [1.9, 0, 0], ball.tets)], gap=1e-3, fixed=[0])
+    >>> done.resolved, done.moves[0], bool(done.moves[1] < 2 * done.first_depth)
+    (True, 0.0, True)
+    """
+    desc, report = described(_c.vox_resolve_desc), described(_c.vox_resolve_report)
+    given, stay = list(bodies), {integer(i, "fixed", 0, U32) for i in fixed}
+    if stay and max(stay) >= len(given):
+        raise InvalidArgumentError(f"fixed names body {max(stay)} of {len(given)}")
+    list_of = (_c.vox_resolve_body * max(len(given), 1))()
+    arrays: list[Any] = []
+    for i, one in enumerate(given):
+        points, cells = one if isinstance(one, tuple) else (one.positions, one.tets if len(one.tets) else one.triangles)
+        p = _positions(points, f"positions of body {i}").copy()
+        width = np.shape(cells)[-1] if np.ndim(cells) == 2 else 0
+        if width not in (3, 4):
+            raise InvalidArgumentError(f"body {i}: cells have the shape {np.shape(cells)}, expected (m, 3) or (m, 4)")
+        c = indices(cells, f"cells of body {i}", width)
+        body = list_of[i]
+        body.struct_size, body.flags = ctypes.sizeof(body), int(i in stay)
+        body.positions, body.vertex_count = p.ctypes.data, len(p)
+        if width == 4:
+            body.tets, body.tet_count = c.ctypes.data, len(c)
+        else:
+            body.faces, body.face_count = c.ctypes.data, len(c)
+        arrays.append((p, c))
+    left = np.zeros(integer(places, "places", 0, U32), _c.dtypes["vox_resolve_place"])
+    desc.gap, desc.max_move = real(gap, "gap"), real(max_move, "max_move")
+    desc.max_iterations, desc.worker_count = integer(max_iterations, "max_iterations", 0, U32), integer(workers, "workers", 0, U32)
+    desc.places, desc.place_capacity = left.ctypes.data, len(left)
+    _sim.vox_resolve(desc, ctypes.addressof(list_of), len(given), report)
+    done = list_of[:len(given)]
+    return Resolved([p for p, _ in arrays], left[:report.place_count], [b.largest_move for b in done],
+                    [(b.volume_before, b.volume) for b in done], [b.inverted_tets for b in done], bool(report.resolved),
+                    report.first_crossings, report.crossings, report.inside_vertices, report.close_pairs, report.first_depth,
+                    report.least_distance, report.largest_move, report.iterations)

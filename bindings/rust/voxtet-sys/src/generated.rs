@@ -379,6 +379,10 @@ pub const VOX_SIM_BODY_SELF_COLLISION: vox_sim_body_flags = 1;
 /// never moves; others collide with it
 pub const VOX_SIM_BODY_FIXED: vox_sim_body_flags = 2;
 
+pub type vox_resolve_flags = u32;
+/// the body does not move
+pub const VOX_RESOLVE_FIXED: vox_resolve_flags = 1;
+
 /// A body of a grid: a mesh or a rigid shape. An id is never used again in the same grid. Ids ascend with slots, so in
 /// a new grid they ascend in the order of insertion.
 pub type vox_body = u32;
@@ -1713,6 +1717,92 @@ pub struct vox_sim_energy {
     pub max_speed: f64,
 }
 
+/// A body whose intersections are to go: tetrahedra, or a surface without any.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_resolve_body {
+    pub struct_size: u32,
+    /// vox_resolve_flags, combined with |
+    pub flags: u32,
+    /// 3 * vertex_count; vox_resolve replaces them
+    pub positions: *mut f64,
+    pub vertex_count: u64,
+    /// 4 * tet_count vertex indices, in either winding
+    pub tets: *const u32,
+    pub tet_count: u64,
+    /// 3 * face_count vertex indices; a body with tetrahedra has none
+    pub faces: *const u32,
+    pub face_count: u64,
+    /// Results, which vox_resolve sets:
+    pub moved_vertices: u64,
+    /// of a vertex
+    pub largest_move: f64,
+    /// of the tetrahedra or in a closed surface; else 0
+    pub volume_before: f64,
+    /// afterwards
+    pub volume: f64,
+    /// whose signed volume has another sign than before
+    pub inverted_tets: u64,
+}
+
+/// A place where something is left: an edge that meets a face, or two features closer than the gap.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_resolve_place {
+    /// indices into the bodies, which may be the same
+    pub body_a: u32,
+    pub body_b: u32,
+    /// 0: they meet
+    pub distance: f64,
+    pub position: [f64; 3],
+}
+
+/// Settings; all 0 by default.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_resolve_desc {
+    pub struct_size: u32,
+    /// as in vox_grid_desc
+    pub worker_count: u32,
+    /// 0: 400
+    pub max_iterations: u32,
+    /// 0
+    pub reserved: u32,
+    /// least distance of features without a common vertex; 0: they only do not meet
+    pub gap: f64,
+    /// no vertex moves further than this; 0: no limit
+    pub max_move: f64,
+    /// receives the first place_capacity places where something is left
+    pub places: *mut vox_resolve_place,
+    pub place_capacity: u64,
+    pub allocator: *const vox_allocator,
+}
+
+/// What was done and what is left.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_resolve_report {
+    pub struct_size: u32,
+    /// 1: nothing is left; else 0
+    pub resolved: u32,
+    /// edges that met a face before
+    pub first_crossings: u64,
+    /// edges that still do
+    pub crossings: u64,
+    /// vertices and edges that still are in a body
+    pub inside_vertices: u64,
+    /// pairs closer than the gap; 0 if there are crossings
+    pub close_pairs: u64,
+    /// greatest depth in a body before
+    pub first_depth: f64,
+    /// of close pairs; 0 if there are crossings; else the gap
+    pub least_distance: f64,
+    pub largest_move: f64,
+    pub iterations: u64,
+    /// of crossings and close pairs together
+    pub place_count: u64,
+}
+
 #[rustfmt::skip]
 extern "C" {
     /// Why the last failing call on this thread failed, e.g. "tet 17 names vertex 900 of 812"; "" if no call has
@@ -2513,6 +2603,17 @@ extern "C" {
     /// Gets sizes, totals and times (docs/sim.md lists them). They live until the next call that changes the
     /// simulation.
     pub fn vox_sim_get_counters(sim: *const vox_sim, out_view: *mut vox_counter_view) -> vox_result;
+    /// Moves bodies apart until no edge meets a face and all features without a common vertex are `gap` apart, by small
+    /// steps of XPBD that keep the lengths of edges and the volumes of tetrahedra. Once nothing crosses, no step makes
+    /// a crossing. A closed surface is a body with an inside; other surfaces have two sides. The same input gives the
+    /// same bits, with any number of workers. Set struct_size of the report first. Errors: INVALID_ARGUMENT,
+    /// INVALID_MESH, NON_FINITE, LIMIT, BUDGET, OUT_OF_MEMORY; positions are then as before.
+    pub fn vox_resolve(
+        desc: *const vox_resolve_desc,
+        bodies: *mut vox_resolve_body,
+        body_count: u64,
+        out_report: *mut vox_resolve_report,
+    ) -> vox_result;
 }
 
 // Of each struct size, alignment, and offsets of its fields: [on 64-bit machines, in WebAssembly and on other 32-bit
@@ -2682,4 +2783,17 @@ layouts! {
         grid_positions: [24, 12], tets: [32, 16], vertex_count: [40, 24], tet_count: [48, 32] }
     vox_sim_energy: size [88, 88], alignment [8, 8], { kinetic: [0, 0], potential: [8, 8], elastic: [16, 16],
         mass: [24, 24], momentum: [32, 32], centre: [56, 56], max_speed: [80, 80] }
+    vox_resolve_body: size [96, 96], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], positions: [8, 8],
+        vertex_count: [16, 16], tets: [24, 24], tet_count: [32, 32], faces: [40, 40], face_count: [48, 48],
+        moved_vertices: [56, 56], largest_move: [64, 64], volume_before: [72, 72], volume: [80, 80],
+        inverted_tets: [88, 88] }
+    vox_resolve_place: size [40, 40], alignment [8, 8], { body_a: [0, 0], body_b: [4, 4], distance: [8, 8],
+        position: [16, 16] }
+    vox_resolve_desc: size [56, 56], alignment [8, 8], { struct_size: [0, 0], worker_count: [4, 4],
+        max_iterations: [8, 8], reserved: [12, 12], gap: [16, 16], max_move: [24, 24], places: [32, 32],
+        place_capacity: [40, 40], allocator: [48, 48] }
+    vox_resolve_report: size [80, 80], alignment [8, 8], { struct_size: [0, 0], resolved: [4, 4],
+        first_crossings: [8, 8], crossings: [16, 16], inside_vertices: [24, 24], close_pairs: [32, 32],
+        first_depth: [40, 40], least_distance: [48, 48], largest_move: [56, 56], iterations: [64, 64],
+        place_count: [72, 72] }
 }
