@@ -38,7 +38,7 @@ namespace vox {
 struct JoltSoftContactSettings {
     double margin = 0.01;           // in metres: vertices this close are kept from getting in
     double stiffness = 0.98;        // share of an impulse that moves the whole body as if it were rigid
-    double foresight = 0.9;         // share of what drew contacts together last, made up for in this step
+    double foresight = 0.85;        // share of what drew contacts together last, made up for in this step
     double push = 0.5;              // share of a depth that a step takes away,
     double push_speed = 0.2;        // but at most so many metres in a second
     int iterations = 8;             // over all contacts of a step

@@ -116,6 +116,7 @@ NAVIGATION = [
             "docs/evidence/foreign-grids.md",
             "docs/evidence/paper.md",
             "docs/evidence/surface-pairs.md",
+            "docs/evidence/jolt.md",
             "docs/evidence/locate.md",
             "docs/evidence/distributed.md",
             "docs/evidence/gpu.md",
