@@ -115,6 +115,7 @@ NAVIGATION = [
             "docs/evidence/paper.md",
             "docs/evidence/surface-pairs.md",
             "docs/evidence/locate.md",
+            "docs/evidence/resolve.md",
             "docs/evidence/distributed.md",
             "docs/evidence/limits.md",
             {"Benchmarks": "bench/README.md"},

@@ -9,10 +9,10 @@ from repository import ROOT, files, text_of
 
 # Of C and C++ in src/, of all files elsewhere.
 LINES_OF_FOLDER = {
-    "src": 52480, "src/base": 3575, "src/exact": 1945, "src/shape": 1090, "src/mesh": 3895, "src/reference": 680,
+    "src": 53380, "src/base": 3575, "src/exact": 1945, "src/shape": 1090, "src/mesh": 3895, "src/reference": 680,
     "src/fast": 5415, "src/depth": 2955, "src/query": 1985, "src/cell_size": 5470, "src/surface": 3325,
-    "src/grid": 7550, "src/api": 1180, "src/io": 9715, "src/sim": 1145, "src/dist": 2460, "src/mpi": 180,
-    "tools": 7150, "bench": 10440,
+    "src/grid": 7550, "src/api": 1180, "src/io": 9715, "src/sim": 2055, "src/dist": 2460, "src/mpi": 180,
+    "tools": 7370, "bench": 10560,
 }
 LINES_OF_DATA = {"docs": 1600}  # drawings and figures of the pages
 LINES_OF_FILE = 600  # of a source file in SOURCES
