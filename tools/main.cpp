@@ -1,5 +1,5 @@
-// The command line tool vox. Exit codes: 0 for success, 1 for bad input, 2 for wrong usage, 3 if vox check or vox resolve
-// leaves crossings.
+// The command line tool vox. Exit codes: 0 for success, 1 for bad input, 2 for wrong usage, 3 if vox check or
+// vox resolve leaves crossings.
 #include "commands.hpp"
 #include "failure.hpp"
 #include "manual.hpp"

@@ -209,7 +209,8 @@ void add_resolve(CommandLine& line) {
         .range(0, 1000000);
     add_what_is_read(command, options->reading);
     command.flag("--json", options->json, "Print one JSON object");
-    command.examples("  vox resolve liver.msh cloth.obj -o out --gap 1e-3 --fixed liver");
+    command.examples("  vox resolve liver.msh cloth.obj -o out --gap 1e-3 --fixed liver\n"
+                     "  vox resolve shirt.obj --json");
     command.runs([options] { run_resolve(*options); });
 }
 

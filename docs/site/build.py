@@ -118,6 +118,7 @@ NAVIGATION = [
             "docs/evidence/surface-pairs.md",
             "docs/evidence/jolt.md",
             "docs/evidence/locate.md",
+            "docs/evidence/resolve.md",
             "docs/evidence/distributed.md",
             "docs/evidence/gpu.md",
             "docs/evidence/limits.md",

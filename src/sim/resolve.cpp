@@ -2,7 +2,6 @@
 
 #include "sim/constraints.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -196,8 +195,13 @@ void Resolver::push_out() {
 // Makes room for the gap, without new overlaps.
 void Resolver::push_apart() {
     for (const auto& body : bodies_) rest_as_it_is(*body, 0);
-    for (std::uint32_t i = 0; find_close() && i < desc_.max_iterations; ++i) {
+    double best = 0;
+    std::uint64_t since = 0;
+    for (std::uint32_t i = 0; find_close() && i < desc_.max_iterations && since < patience; ++i) {
         if (contacts_.empty()) break;
+        const double distance = report_.least_distance;
+        since = distance > best ? 0 : since + 1;
+        best = std::max(best, distance);
         check(vox_surface_find_clearances(surface_.get(), 2 * desc_.gap, clearances_.data()));
         relax();
         if (desc_.max_move > 0) keep_near(start_, nullptr);

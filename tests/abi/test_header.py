@@ -17,7 +17,7 @@ HEADERS = ["vox.h", "vox_query.h", "vox_cell_size.h", "vox_surface.h", "vox_io.h
 
 # Functions, structs and fields of each header, which are not to grow unseen: a new function has two users outside of tests.
 BUDGETS = {"vox.h": (51, 21, 141), "vox_query.h": (14, 8, 52), "vox_cell_size.h": (9, 14, 111), "vox_surface.h": (13, 12, 61),
-           "vox_io.h": (19, 9, 82), "vox_sim.h": (10, 4, 42), "vox_dist.h": (13, 7, 36)}
+           "vox_io.h": (19, 9, 82), "vox_sim.h": (11, 8, 79), "vox_dist.h": (13, 7, 36)}
 LIBRARIES = {name[:-2] for name in BUDGETS} | {"vox_mpi", "vox_gpu", "vox_cuda", "vox_gpu_host"}
 
 # Everything that a foreign-function interface can carry.

@@ -508,12 +508,51 @@ START_TEST(changes_in_its_grid) {
 }
 END_TEST
 
+/* ---- repair ----------------------------------------------------------------------------------- */
+
+START_TEST(resolve_refuses) {
+    double positions[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, before[12];
+    memcpy(before, positions, sizeof before);
+    const uint32_t tet[4] = {0, 1, 2, 3}, face[3] = {0, 1, 4};
+    vox_resolve_desc desc = vox_default_resolve_desc();
+    vox_resolve_report report = {.struct_size = sizeof report};
+    vox_resolve_body body = vox_default_resolve_body();
+    body.positions = positions;
+    body.vertex_count = 4;
+    ck_fails(vox_resolve(&desc, &body, 1, &report), VOX_ERROR_INVALID_ARGUMENT, "0 tets and 0 faces");
+    body.faces = face;
+    body.face_count = 1;
+    ck_fails(vox_resolve(&desc, &body, 1, &report), VOX_ERROR_INVALID_MESH, "face 0 names vertex 4 of 4");
+    body.tets = tet;
+    body.tet_count = 1;
+    ck_fails(vox_resolve(&desc, &body, 1, &report), VOX_ERROR_INVALID_ARGUMENT, "1 tets and 1 faces");
+    body.face_count = 0;
+    body.flags = 2;
+    ck_fails(vox_resolve(&desc, &body, 1, &report), VOX_ERROR_INVALID_ARGUMENT, "flags are 0x2");
+    body.flags = 0;
+    desc.gap = -1;
+    ck_fails(vox_resolve(&desc, &body, 1, &report), VOX_ERROR_INVALID_ARGUMENT, "gap is -1");
+    desc.gap = 0;
+    desc.place_capacity = 1;
+    ck_fails(vox_resolve(&desc, &body, 1, &report), VOX_ERROR_INVALID_ARGUMENT, "places are null");
+    ck_fails(vox_resolve(NULL, &body, 0, &report), VOX_ERROR_INVALID_ARGUMENT, "no bodies");
+    ck_fails(vox_resolve(NULL, &body, 1, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_report");
+    report.struct_size = 0;
+    ck_fails(vox_resolve(NULL, &body, 1, &report), VOX_ERROR_INVALID_ARGUMENT, "struct_size is 0");
+    ck_assert_mem_eq(positions, before, sizeof before);
+    report.struct_size = sizeof report;
+    ck_ok(vox_resolve(NULL, &body, 1, &report));
+    ck_assert_uint_eq(report.resolved, 1);
+    ck_assert_mem_eq(positions, before, sizeof before);
+}
+END_TEST
+
 SUITE(sim_bad_input) {
     TCase* tests = add_case(suite, "bad input");
     tcase_add_each(tests, crossing_bars, coincident_bodies, enclosed_body, below_the_floor,
                    squashed_and_inverted, flat_and_inverted_tets_are_counted, too_large_a_step_is_cut_down,
                    absurd_stiffness_is_cut_down, the_same_bits_every_time, refuses_bad_settings,
                    refuses_bad_bodies, refuses_bad_calls, structs_may_be_smaller, sets_the_flag_that_it_needs,
-                   the_grid_is_within_reach);
+                   the_grid_is_within_reach, resolve_refuses);
     tcase_add_loop_test(tests, changes_in_its_grid, 0, change_count);
 }

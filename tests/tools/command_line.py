@@ -374,7 +374,7 @@ class CommandLine(Files):
         self.assertEqual(gaps, sorted(gaps))
 
     def test_help_has_defaults_and_examples(self):
-        for command in ("demo", "info", "check", "suggest", "collide", "replay", "sweep", "tetrahedralize"):
+        for command in ("demo", "info", "check", "suggest", "collide", "replay", "resolve", "sweep", "tetrahedralize"):
             text = run(command, "--help").stdout.decode()
             self.assertRegex(text, rf"Examples:\n  vox {command}\b.*\n  vox {command}\b" if command != "demo" else r"Examples:\n  vox demo\n")
         self.assertIn("--threads UINT=1", run("collide", "--help").stdout.decode())

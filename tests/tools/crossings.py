@@ -3,6 +3,7 @@
 import fractions
 import json
 import math
+import os
 import random
 import unittest
 import xml.etree.ElementTree
@@ -194,6 +195,50 @@ class Crossings(Files):
         saved = self.path("saved.vox")
         self.assertEqual(run("collide", first, second, "--edges", "--save", saved).returncode, 0)
         self.assertEqual(run_json("replay", saved)["counters"]["edge_contacts"], len(edges))
+
+
+class Resolve(Files):
+    """vox resolve"""
+
+    def setUp(self):
+        super().setUp()
+        self.along = self.write("along.obj", obj(ALONG_X))
+        self.across = self.write("across.obj", obj(ALONG_Y))
+
+    def test_bars(self):
+        out = self.path(os.path.join("out", "new"))
+        found = run_json("resolve", self.along, self.across, "-o", out, "--gap", "0.01", "--fixed", "along")
+        self.assertEqual((found["resolved"], found["crossings"], found["close_pairs"], found["places"]), (True, 0, 0, []))
+        self.assertGreater(found["crossings_before"], 0)
+        self.assertEqual([mesh["fixed"] for mesh in found["meshes"]], [True, False])
+        self.assertEqual([mesh["largest_move"] > 0 for mesh in found["meshes"]], [False, True])
+        both = "".join(open(mesh["output"], encoding="ascii").read() for mesh in found["meshes"])
+        faces = [line for line in both.splitlines() if line[0] == "f"]
+        moved = [" ".join(["f", *(str(int(v) + 8) for v in line.split()[1:])]) for line in faces[12:]]
+        points = [line for line in both.splitlines() if line[0] == "v"]
+        self.assertTrue(run_json("check", self.write("both.obj", "\n".join(points + faces[:12] + moved) + "\n"))["free"])
+        with open(found["meshes"][0]["output"], encoding="ascii") as file:
+            self.assertEqual(sorted([float(x) for x in line.split()[1:]] for line in file if line[0] == "v"),
+                             sorted(list(map(float, corner)) for corner in corners(*ALONG_X)))
+
+    def test_what_is_left(self):
+        for options in (["--max-move", "0.01"], ["--fixed", "along", "--fixed", self.across]):
+            done = run("resolve", self.along, self.across, *options, "--limit", "2", "--json")
+            self.assertEqual((done.returncode, done.stderr), (3, b""))
+            found = json.loads(done.stdout)
+            self.assertEqual((found["resolved"], len(found["places"])), (False, 2))
+            self.assertEqual(sorted(found["places"][0]["meshes"]), [0, 1])
+            self.assertLess(max(map(abs, found["places"][0]["position"])), 2)
+            done = run("resolve", self.along, self.across, *options, "--limit", "2")
+            self.assertEqual(done.returncode, 3)
+            self.assertEqual(done.stdout.count(b"  left: "), 2)
+
+    def test_wrong_usage(self):
+        done = run("resolve", self.along, "--fixed", "other")
+        self.assertEqual((done.returncode, b"--fixed other names none" in done.stderr), (2, True))
+        done = run("resolve", self.along, self.along, "-o", self.path("out"))
+        self.assertEqual((done.returncode, b"two meshes would be written" in done.stderr), (1, True))
+        self.assertEqual(run("resolve", self.along, "--gap", "-1").returncode, 2)
 
 
 if __name__ == "__main__":

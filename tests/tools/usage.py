@@ -11,7 +11,7 @@ import unittest
 from command_line import TETS, TWO_TETS, msh
 from vox import TOOL, Files, run
 
-COMMANDS = ["demo", "info", "check", "suggest", "collide", "replay", "sweep", "tetrahedralize", "generate"]
+COMMANDS = ["demo", "info", "check", "suggest", "collide", "replay", "sweep", "resolve", "tetrahedralize", "generate"]
 
 
 class Usage(Files):

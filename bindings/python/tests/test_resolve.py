@@ -1,6 +1,5 @@
 """Bodies and surfaces that overlap are moved apart."""
 
-import doctest
 import unittest
 
 import numpy as np
@@ -127,11 +126,6 @@ class Resolve(unittest.TestCase):
             with self.assertRaises(voxtet.VoxError, msg=words) as raised:
                 sim.resolve(bodies, **options)
             self.assertIn(words, str(raised.exception))
-
-
-def load_tests(loader, tests, pattern):
-    tests.addTests(doctest.DocTestSuite(sim))
-    return tests
 
 
 if __name__ == "__main__":
