@@ -10,12 +10,9 @@ namespace vox {
 
 using Whole = IntegerIn<AnyWords>;
 
-// m / 2^powers
-struct Dyadic {
-    Whole m;
-    int powers = 0;
+struct Ratio {
+    Whole over, under; // this one is positive
 };
-Dyadic dyadic(double x); // x in [0, 1]
 
 // Coefficients from the constant one up, the last one not zero; none: zero.
 using Polynomial = std::vector<Whole>;
@@ -24,21 +21,21 @@ Polynomial linear(const Whole& at_0, const Whole& at_1);
 Polynomial operator+(const Polynomial& a, const Polynomial& b);
 Polynomial operator-(const Polynomial& a, const Polynomial& b);
 Polynomial operator*(const Polynomial& a, const Polynomial& b);
-int sign_at(const Polynomial& f, const Dyadic& x);
+int sign_at(const Polynomial& f, const Ratio& x);
 
-// A root of a polynomial in (0, 1], known by an interval around it that has no other root.
+// A root in (0, 1], known as the only one of a polynomial between two numbers that are not roots of it. It is
+// a simple one.
 class Root {
 public:
+    Root(Polynomial f, Ratio low, Ratio high)
+        : f_(std::move(f)), low_(std::move(low)), high_(std::move(high)) {}
     // The sign of g at the root.
     int sign_of(const Polynomial& g) const;
     double rounded() const; // to nearest
 
 private:
-    friend std::vector<Root> roots(const Polynomial& f);
-
-    Polynomial f_; // without roots at the ends of the interval
-    Dyadic low_, high_;
-    bool is_one_ = false; // the root is 1, and f_ unused
+    Polynomial f_;
+    Ratio low_, high_;
 };
 
 // All different ones in (0, 1], ascending. f is not zero.
