@@ -122,14 +122,6 @@ int sign_at(const Polynomial& f, const Ratio& x) {
     return value.sign();
 }
 
-int Root::sign_of(const Polynomial& g) const {
-    if (g.size() <= 1) return g.empty() ? 0 : g[0].sign();
-    const int at_one = sign_at(g, {whole(1), whole(1)});
-    if (at_one != 0 && bernstein_changes(g) == 0) return at_one;
-    const Chain chain = remainders(f_, g);
-    return (sign_changes(chain, low_) - sign_changes(chain, high_)) * sign_at(f_, high_);
-}
-
 namespace {
 
 Ratio ratio(double x) { // in [0, 1]
@@ -139,20 +131,26 @@ Ratio ratio(double x) { // in [0, 1]
 
 int compare(const Ratio& a, const Ratio& b) { return (a.over * b.under - b.over * a.under).sign(); }
 
-// The double nearest to a number in [low, high], the lower one of two. reached(x): whether x is not before
-// it.
+using Neighbours = std::pair<double, double>;
+
+// The doubles before and after a number in [low, high]. reached(x): whether x is not before it.
 template <class Reached>
-double nearest(double low, double high, const Reached& reached) {
+Neighbours neighbours(double low, double high, const Reached& reached) {
     auto before = std::bit_cast<std::uint64_t>(low), after = std::bit_cast<std::uint64_t>(high);
     while (after - before > 1) {
         const std::uint64_t between = before + (after - before) / 2;
         (reached(ratio(std::bit_cast<double>(between))) ? after : before) = between;
     }
-    if (before == after) return low;
-    const auto x = std::bit_cast<double>(before), y = std::bit_cast<double>(after);
-    const Ratio of_x = ratio(x), of_y = ratio(y);
-    const Ratio middle{of_x.over * of_y.under + of_y.over * of_x.under, whole(2) * of_x.under * of_y.under};
-    return reached(middle) ? x : y;
+    return {std::bit_cast<double>(before), std::bit_cast<double>(after)};
+}
+
+// The one of them that is nearer, the lower one of two.
+template <class Reached>
+double nearest(const Neighbours& of, const Reached& reached) {
+    if (of.first == of.second) return of.first;
+    const Ratio x = ratio(of.first), y = ratio(of.second);
+    return reached({x.over * y.under + y.over * x.under, whole(2) * x.under * y.under}) ? of.first
+                                                                                        : of.second;
 }
 
 // Points in (0, 1), ascending, that divide the roots of a polynomial of degree 3 or less: each multiple root
@@ -199,14 +197,39 @@ bool divide_out(Polynomial& f, const Ratio& x) {
 } // namespace
 
 double rounded_root(const Polynomial& f, int sign_after, double low, double high) {
-    return nearest(low, high, [&](const Ratio& x) { return sign_at(f, x) != -sign_after; });
+    const auto reached = [&](const Ratio& x) { return sign_at(f, x) != -sign_after; };
+    return nearest(neighbours(low, high, reached), reached);
+}
+
+Root::Root(Polynomial f, Ratio low, Ratio high)
+    : f_(std::move(f)), low_(std::move(low)), high_(std::move(high)), sign_after_(sign_at(f_, high_)),
+      around_(neighbours(0, 1, [this](const Ratio& x) { return reached(x); })) {
+    const Ratio before = ratio(around_.first), after = ratio(around_.second);
+    if (compare(before, low_) > 0) low_ = before;
+    if (compare(after, high_) < 0) high_ = after;
+    is_high_ = sign_at(f_, high_) == 0;
+}
+
+bool Root::reached(const Ratio& x) const {
+    return compare(x, low_) > 0 && (compare(x, high_) >= 0 || sign_at(f_, x) != -sign_after_);
 }
 
 double Root::rounded() const {
-    const int before = sign_at(f_, low_);
-    return nearest(0, 1, [&](const Ratio& x) {
-        return compare(x, low_) > 0 && (compare(x, high_) >= 0 || sign_at(f_, x) != before);
-    });
+    return is_high_ ? around_.second : nearest(around_, [this](const Ratio& x) { return reached(x); });
+}
+
+int Root::sign_of(const Polynomial& g) const {
+    if (g.size() <= 1) return g.empty() ? 0 : g[0].sign();
+    const int sign = sign_at(g, high_);
+    if (is_high_) return sign;
+    if (sign != 0 && sign == sign_at(g, low_)) {
+        if (g.size() == 2) return sign;
+        const Whole sum = low_.over * high_.under + high_.over * low_.under;
+        const Whole between = whole(2) * (low_.under * high_.under * g[0] + low_.over * high_.over * g[2]);
+        if (sign == (between + sum * g[1]).sign()) return sign;
+    }
+    const Chain chain = remainders(f_, g);
+    return (sign_changes(chain, low_) - sign_changes(chain, high_)) * sign_after_;
 }
 
 std::vector<Root> roots(const Polynomial& f) {

@@ -4,6 +4,7 @@
 
 #include "exact/integer.hpp"
 
+#include <utility>
 #include <vector>
 
 namespace vox {
@@ -27,15 +28,18 @@ int sign_at(const Polynomial& f, const Ratio& x);
 // a simple one.
 class Root {
 public:
-    Root(Polynomial f, Ratio low, Ratio high)
-        : f_(std::move(f)), low_(std::move(low)), high_(std::move(high)) {}
-    // The sign of g at the root.
-    int sign_of(const Polynomial& g) const;
-    double rounded() const; // to nearest
+    Root(Polynomial f, Ratio low, Ratio high);
+    int sign_of(const Polynomial& g) const; // at the root, for degrees up to 2
+    double rounded() const;                 // to nearest
 
 private:
+    bool reached(const Ratio& x) const;
+
     Polynomial f_;
-    Ratio low_, high_;
+    Ratio low_, high_; // in the end neighbouring doubles, or closer
+    int sign_after_;
+    std::pair<double, double> around_; // neighbouring doubles
+    bool is_high_ = false;             // the root is the upper one
 };
 
 // All different ones in (0, 1], ascending. f is not zero.
