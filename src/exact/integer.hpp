@@ -128,7 +128,7 @@ IntegerIn<Words> operator*(const IntegerIn<Words>& a, const IntegerIn<Words>& b)
     std::fill_n(product, b.size, 0u);
     for (int i = 0; i < a.size; ++i) {
         std::uint64_t carry = 0;
-        for (int j = 0; j < b.size; ++j, carry >>= 32) {
+        for (int j = 0; j < b.size && of_a[i] != 0; ++j, carry >>= 32) { // many are, of different magnitudes
             carry += std::uint64_t{of_a[i]} * of_b[j] + product[i + j];
             product[i + j] = static_cast<std::uint32_t>(carry);
         }

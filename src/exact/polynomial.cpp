@@ -1,6 +1,6 @@
-// Roots are counted by the sign changes of remainders (C. Sturm, 1829), and so is the sign of another
-// polynomial at a root (A. Tarski): S. Basu, R. Pollack, M.-F. Roy, Algorithms in Real Algebraic Geometry,
-// 2006, Sect. 2.2. Most intervals need no remainders, by the rule of Descartes on Bernstein coefficients.
+// The sign of another polynomial at a root is a Cauchy index, which the sign changes of remainders give
+// (C. Sturm, 1829): S. Basu, R. Pollack, M.-F. Roy, Algorithms in Real Algebraic Geometry, 2006, Sect. 2.2.
+// Most need no remainders, by the rule of Descartes on Bernstein coefficients.
 #include "exact/polynomial.hpp"
 
 #include <utility>
@@ -53,7 +53,7 @@ Chain remainders(const Polynomial& f, const Polynomial& g) {
     return chain;
 }
 
-int sign_changes(const Chain& chain, const Dyadic& x) {
+int sign_changes(const Chain& chain, const Ratio& x) {
     int changes = 0, last = 0;
     for (const Polynomial& f : chain) {
         const int sign = sign_at(f, x);
@@ -61,19 +61,6 @@ int sign_changes(const Chain& chain, const Dyadic& x) {
         if (sign != 0) last = sign;
     }
     return changes;
-}
-
-Dyadic middle(const Dyadic& a, const Dyadic& b, std::uint32_t of_a = 1, std::uint32_t of_b = 1,
-              int powers = 1) {
-    const int most = std::max(a.powers, b.powers);
-    return {shifted_left(a.m, most - a.powers) * whole(of_a) +
-                shifted_left(b.m, most - b.powers) * whole(of_b),
-            most + powers};
-}
-
-bool is_before(const Dyadic& a, const Dyadic& b) {
-    const int most = std::max(a.powers, b.powers);
-    return (shifted_left(a.m, most - a.powers) - shifted_left(b.m, most - b.powers)).sign() < 0;
 }
 
 // How many times the Bernstein coefficients in [0, 1] change their sign, for degrees up to 3: as many roots
@@ -93,12 +80,6 @@ int bernstein_changes(const Polynomial& f) {
 }
 
 } // namespace
-
-Dyadic dyadic(double x) {
-    const Parts of = parts(x);
-    const int unit = std::min(of.exponent, 0);
-    return {integer_of<AnyWords>(x, unit), -unit};
-}
 
 Polynomial linear(const Whole& at_0, const Whole& at_1) {
     Polynomial result{at_0, at_1 - at_0};
@@ -131,101 +112,140 @@ Polynomial operator*(const Polynomial& a, const Polynomial& b) {
     return result;
 }
 
-int sign_at(const Polynomial& f, const Dyadic& x) {
+int sign_at(const Polynomial& f, const Ratio& x) {
     if (f.empty()) return 0;
-    Whole value = f.back();
-    int powers = 0;
+    Whole value = f.back(), power = x.under;
     for (std::size_t i = f.size() - 1; i-- > 0;) {
-        powers += x.powers;
-        value = value * x.m + shifted_left(f[i], powers);
+        value = value * x.over + power * f[i];
+        if (i > 0) power = power * x.under;
     }
     return value.sign();
 }
 
-int Root::sign_of(const Polynomial& g) const {
-    if (g.size() <= 1) return g.empty() ? 0 : g[0].sign();
-    if (is_one_) return sign_at(g, dyadic(1));
-    const Chain chain = remainders(f_, derivative(f_) * g);
-    return sign_changes(chain, low_) - sign_changes(chain, high_);
-}
-
 namespace {
 
-// The double nearest to a number in [low, high], the lower one of two. reached(x): whether x is not before
-// it.
+Ratio ratio(double x) { // in [0, 1]
+    const int unit = std::min(parts(x).exponent, 0);
+    return {integer_of<AnyWords>(x, unit), integer_of<AnyWords>(1, unit)};
+}
+
+int compare(const Ratio& a, const Ratio& b) { return (a.over * b.under - b.over * a.under).sign(); }
+
+using Neighbours = std::pair<double, double>;
+
+// The doubles before and after a number in [low, high]. reached(x): whether x is not before it.
 template <class Reached>
-double nearest(double low, double high, const Reached& reached) {
+Neighbours neighbours(double low, double high, const Reached& reached) {
     auto before = std::bit_cast<std::uint64_t>(low), after = std::bit_cast<std::uint64_t>(high);
     while (after - before > 1) {
         const std::uint64_t between = before + (after - before) / 2;
-        (reached(dyadic(std::bit_cast<double>(between))) ? after : before) = between;
+        (reached(ratio(std::bit_cast<double>(between))) ? after : before) = between;
     }
-    if (before == after) return low;
-    const auto x = std::bit_cast<double>(before), y = std::bit_cast<double>(after);
-    return reached(middle(dyadic(x), dyadic(y))) ? x : y;
+    return {std::bit_cast<double>(before), std::bit_cast<double>(after)};
+}
+
+// The one of them that is nearer, the lower one of two.
+template <class Reached>
+double nearest(const Neighbours& of, const Reached& reached) {
+    if (of.first == of.second) return of.first;
+    const Ratio x = ratio(of.first), y = ratio(of.second);
+    return reached({x.over * y.under + y.over * x.under, whole(2) * x.under * y.under}) ? of.first
+                                                                                        : of.second;
+}
+
+// Points in (0, 1), ascending, that divide the roots of a polynomial of degree 3 or less: each multiple root
+// is one of them, and no two others are neighbours. The inflection of a cubic f is between its outermost
+// roots, as their mean. f = q * f' + r, where q is zero there; so r has different signs at two roots on one
+// side of it, and is zero at a multiple root.
+std::vector<Ratio> dividing_points(const Polynomial& f) {
+    std::vector<Ratio> points;
+    const auto add_root_of = [&points](const Polynomial& line) {
+        if (line.size() != 2) return;
+        Ratio x{line[0], line[1]};
+        x.over.negative = x.over.negative == x.under.negative;
+        x.under.negative = false;
+        if (x.over.sign() > 0 && smaller_magnitude(x.over, x.under)) points.push_back(x);
+    };
+    const Polynomial slope = derivative(f);
+    add_root_of(f.size() == 4 ? derivative(slope) : slope);
+    if (f.size() == 4) add_root_of(minus_remainder(f, slope));
+    if (points.size() == 2 && compare(points[0], points[1]) > 0) std::swap(points[0], points[1]);
+    return points;
+}
+
+// Divides by all factors that have the root x. Whether there are any.
+bool divide_out(Polynomial& f, const Ratio& x) {
+    bool is_root = false;
+    for (; sign_at(f, x) == 0; is_root = true) {
+        Polynomial quotient(f.size() - 1);
+        Whole sum = f.back(), power = whole(1);
+        for (std::size_t i = quotient.size(); i-- > 0;) {
+            quotient[i] = sum;
+            power = power * x.under;
+            sum = sum * x.over + f[i] * power;
+        }
+        power = whole(1);
+        for (Whole& c : quotient) {
+            c = c * power;
+            power = power * x.under;
+        }
+        f = std::move(quotient);
+    }
+    return is_root;
 }
 
 } // namespace
 
 double rounded_root(const Polynomial& f, int sign_after, double low, double high) {
-    return nearest(low, high, [&](const Dyadic& x) { return sign_at(f, x) != -sign_after; });
+    const auto reached = [&](const Ratio& x) { return sign_at(f, x) != -sign_after; };
+    return nearest(neighbours(low, high, reached), reached);
+}
+
+Root::Root(Polynomial f, Ratio low, Ratio high)
+    : f_(std::move(f)), low_(std::move(low)), high_(std::move(high)), sign_after_(sign_at(f_, high_)),
+      around_(neighbours(0, 1, [this](const Ratio& x) { return reached(x); })) {
+    const Ratio before = ratio(around_.first), after = ratio(around_.second);
+    if (compare(before, low_) > 0) low_ = before;
+    if (compare(after, high_) < 0) high_ = after;
+    is_high_ = sign_at(f_, high_) == 0;
+}
+
+bool Root::reached(const Ratio& x) const {
+    return compare(x, low_) > 0 && (compare(x, high_) >= 0 || sign_at(f_, x) != -sign_after_);
 }
 
 double Root::rounded() const {
-    if (is_one_) return 1;
-    const int before = sign_at(f_, low_), after = sign_at(f_, high_);
-    Chain chain; // for a root without a change of sign
-    if (before == after) chain = remainders(f_, derivative(f_));
-    const int changes = sign_changes(chain, low_);
-    return nearest(0, 1, [&](const Dyadic& x) {
-        if (is_before(x, low_)) return false;
-        if (!is_before(x, high_)) return true;
-        const int sign = sign_at(f_, x);
-        return before != after ? sign != before : sign == 0 || sign_changes(chain, x) < changes;
-    });
+    return is_high_ ? around_.second : nearest(around_, [this](const Ratio& x) { return reached(x); });
+}
+
+int Root::sign_of(const Polynomial& g) const {
+    if (g.size() <= 1) return g.empty() ? 0 : g[0].sign();
+    const int sign = sign_at(g, high_);
+    if (is_high_) return sign;
+    if (sign != 0 && sign == sign_at(g, low_)) {
+        if (g.size() == 2) return sign;
+        const Whole sum = low_.over * high_.under + high_.over * low_.under;
+        const Whole between = whole(2) * (low_.under * high_.under * g[0] + low_.over * high_.over * g[2]);
+        if (sign == (between + sum * g[1]).sign()) return sign;
+    }
+    const Chain chain = remainders(f_, g);
+    return (sign_changes(chain, low_) - sign_changes(chain, high_)) * sign_after_;
 }
 
 std::vector<Root> roots(const Polynomial& f) {
-    std::vector<Root> found;
     Polynomial rest = f;
     while (rest[0].size == 0) rest.erase(rest.begin()); // roots at 0
-    const Dyadic one = dyadic(1);
-    bool at_one = false;
-    for (; sign_at(rest, one) == 0; at_one = true) { // divide by t - 1
-        for (std::size_t i = rest.size() - 1; i-- > 0;) rest[i] = rest[i] + rest[i + 1];
-        rest.erase(rest.begin());
-    }
-    Root root;
-    root.f_ = rest;
-    const int changes = bernstein_changes(rest);
-    if (changes == 1) {
-        root.low_ = dyadic(0);
-        root.high_ = one;
-        found.push_back(root);
-    } else if (changes > 1) {
-        const Chain chain = remainders(rest, derivative(rest));
-        std::vector<std::pair<Dyadic, Dyadic>> open{{dyadic(0), one}};
-        while (!open.empty()) {
-            auto [low, high] = open.back();
-            open.pop_back();
-            const int count = sign_changes(chain, low) - sign_changes(chain, high);
-            if (count == 0) continue;
-            root.low_ = low;
-            root.high_ = high;
-            if (count == 1) {
-                found.push_back(root);
-                continue;
-            }
-            Dyadic split = middle(low, high);
-            for (std::uint32_t part = 3; sign_at(rest, split) == 0; ++part)
-                split = middle(low, high, 16 - part, part, 4);
-            open.push_back({split, high});
-            open.push_back({low, split});
-        }
-    }
-    if (at_one) {
-        root.is_one_ = true;
-        found.push_back(root);
+    const Ratio zero{whole(0), whole(1)}, one{whole(1), whole(1)}, two{whole(2), whole(1)};
+    std::vector<Ratio> ends;
+    if (bernstein_changes(rest) > 1) ends = dividing_points(rest);
+    ends.push_back(one);
+    std::vector<bool> is_root;
+    for (const Ratio& end : ends) is_root.push_back(divide_out(rest, end));
+    std::vector<Root> found;
+    const Ratio* low = &zero;
+    for (std::size_t i = 0; i < ends.size(); low = &ends[i++]) {
+        if (sign_at(rest, *low) != sign_at(rest, ends[i])) found.push_back({rest, *low, ends[i]});
+        if (is_root[i]) found.push_back({{whole(0) - ends[i].over, ends[i].under}, zero, two});
     }
     return found;
 }

@@ -4,18 +4,16 @@
 
 #include "exact/integer.hpp"
 
+#include <utility>
 #include <vector>
 
 namespace vox {
 
 using Whole = IntegerIn<AnyWords>;
 
-// m / 2^powers
-struct Dyadic {
-    Whole m;
-    int powers = 0;
+struct Ratio {
+    Whole over, under; // this one is positive
 };
-Dyadic dyadic(double x); // x in [0, 1]
 
 // Coefficients from the constant one up, the last one not zero; none: zero.
 using Polynomial = std::vector<Whole>;
@@ -24,21 +22,24 @@ Polynomial linear(const Whole& at_0, const Whole& at_1);
 Polynomial operator+(const Polynomial& a, const Polynomial& b);
 Polynomial operator-(const Polynomial& a, const Polynomial& b);
 Polynomial operator*(const Polynomial& a, const Polynomial& b);
-int sign_at(const Polynomial& f, const Dyadic& x);
+int sign_at(const Polynomial& f, const Ratio& x);
 
-// A root of a polynomial in (0, 1], known by an interval around it that has no other root.
+// A root in (0, 1], known as the only one of a polynomial between two numbers that are not roots of it. It is
+// a simple one.
 class Root {
 public:
-    // The sign of g at the root.
-    int sign_of(const Polynomial& g) const;
-    double rounded() const; // to nearest
+    Root(Polynomial f, Ratio low, Ratio high);
+    int sign_of(const Polynomial& g) const; // at the root, for degrees up to 2
+    double rounded() const;                 // to nearest
 
 private:
-    friend std::vector<Root> roots(const Polynomial& f);
+    bool reached(const Ratio& x) const;
 
-    Polynomial f_; // without roots at the ends of the interval
-    Dyadic low_, high_;
-    bool is_one_ = false; // the root is 1, and f_ unused
+    Polynomial f_;
+    Ratio low_, high_; // in the end neighbouring doubles, or closer
+    int sign_after_;
+    std::pair<double, double> around_; // neighbouring doubles
+    bool is_high_ = false;             // the root is the upper one
 };
 
 // All different ones in (0, 1], ascending. f is not zero.
