@@ -86,7 +86,7 @@ SoftBody* find_body(std::span<const BodyHandle> bodies, vox_body mesh) {
     return found != bodies.end() && (*found)->mesh == mesh ? found->get() : nullptr;
 }
 
-void gather_contacts(const vox_grid* grid, std::span<const BodyHandle> bodies, const Shapes& shapes,
+void gather_contacts(const vox_grid* grid, std::span<const BodyHandle> bodies, const Shapes* shapes,
                      const ContactSettings& settings, Array<Contact>& contacts) {
     vox_constraint_view found{};
     contacts.clear();
@@ -96,7 +96,7 @@ void gather_contacts(const vox_grid* grid, std::span<const BodyHandle> bodies, c
         c.a = find_body(bodies, from.body_a);
         c.b = find_body(bodies, from.body_b);
         const bool with_shape = from.count == from.count_a;
-        if (!c.a || !(c.b || with_shape)) continue;
+        if (!c.a || !(c.b || (with_shape && shapes))) continue;
         check_contact(*c.a, c.b, from);
         c.count_a = from.count_a;
         c.count = from.count;
@@ -104,7 +104,7 @@ void gather_contacts(const vox_grid* grid, std::span<const BodyHandle> bodies, c
         std::copy_n(from.weights, from.count, c.weights);
         c.depth = -from.offset;
         c.direction = Vec3(from.normal[0], from.normal[1], from.normal[2]);
-        c.motion = with_shape ? shapes.motion(from.body_b, Vec3(from.position)) : Vec3::Zero();
+        c.motion = with_shape ? shapes->motion(from.body_b, Vec3(from.position)) : Vec3::Zero();
         c.slop = settings.slop >= 0 ? settings.slop : (c.a->mean_edge + (c.b ? c.b : c.a)->mean_edge) / 200;
         for (std::uint32_t i = 0; i < c.count; ++i)
             c.inverse_mass += c.weights[i] * c.weights[i] * c.body(i).inverse_masses[c.vertices[i]];

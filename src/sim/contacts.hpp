@@ -50,9 +50,9 @@ struct Floor {
 // The body of a mesh, or null if there is none. `bodies` must ascend in mesh.
 SoftBody* find_body(std::span<const BodyHandle> bodies, vox_body mesh);
 
-// Reads the constraints of the grid's last step, except those of meshes not in `bodies` and of pairs of fixed
-// bodies.
-void gather_contacts(const vox_grid* grid, std::span<const BodyHandle> bodies, const Shapes& shapes,
+// Reads the constraints of the grid's last step, except those of meshes not in `bodies`, of pairs of fixed
+// bodies and, without `shapes`, of shapes.
+void gather_contacts(const vox_grid* grid, std::span<const BodyHandle> bodies, const Shapes* shapes,
                      const ContactSettings& settings, Array<Contact>& contacts);
 
 // `age`: how many substeps have ended since the contacts were found.

@@ -147,7 +147,7 @@ void Resolver::relax() {
             solve_volumes(*body);
             keep_volume(*body);
         }
-        solve_contacts(contacts_, {.friction = 0, .compliance = 0, .push_speed = 1e60, .slop = 0}, 1);
+        solve_contacts(contacts_, 0, {.friction = 0, .compliance = 0, .push_speed = 1e60, .slop = 0}, 1);
     }
 }
 

@@ -68,6 +68,7 @@ void Resolver::add_vertices(Contact& c, std::span<const std::uint32_t> vertices,
 
 // Adds a contact that is `depth` deep now.
 void Resolver::add(Contact& c, double depth) {
+    c.motion = Vec3::Zero();
     c.depth = 0;
     c.depth = depth - depth_of(c);
     for (std::uint32_t i = 0; i < c.count; ++i)
@@ -105,8 +106,8 @@ bool Resolver::find_overlaps() {
     const bool is_first = report_.iterations == 0;
     update_shapes();
     check(vox_grid_step(grid_.get()));
-    gather_contacts(grid_.get(), bodies_, {.friction = 0, .compliance = 0, .push_speed = 0, .slop = 0},
-                    contacts_);
+    gather_contacts(grid_.get(), bodies_, nullptr,
+                    {.friction = 0, .compliance = 0, .push_speed = 0, .slop = 0}, contacts_);
     add_shape_contacts();
     report_.inside_vertices = contacts_.size();
     // A body that did not overlap itself at first was folded by its neighbours, and its shape undoes that.

@@ -130,7 +130,7 @@ void vox_sim::detect() {
     const std::uint64_t start = nanoseconds();
     check(vox_grid_step(grid_.get()));
     counts_.detect_ns += nanoseconds() - start;
-    gather_contacts(grid_.get(), bodies_, shapes_, contact_settings_, contacts_);
+    gather_contacts(grid_.get(), bodies_, &shapes_, contact_settings_, contacts_);
     ++counts_.detections;
     counts_.constraints = contacts_.size();
 }
