@@ -31,11 +31,12 @@ Polynomial minus_remainder(Polynomial f, const Polynomial& g) {
     Whole leading = g.back();
     leading.negative = false;
     while (f.size() >= g.size()) {
-        Whole top = f.back();
+        Whole top = std::move(f.back());
         top.negative = top.negative != g.back().negative;
-        const std::size_t shift = f.size() - g.size();
-        for (std::size_t i = 0; i < f.size(); ++i) f[i] = f[i] * leading;
-        for (std::size_t i = 0; i < g.size(); ++i) f[shift + i] = f[shift + i] - top * g[i];
+        f.pop_back(); // the rest cancels it
+        const std::size_t shift = f.size() + 1 - g.size();
+        for (Whole& c : f) c = c * leading;
+        for (std::size_t i = 0; i + 1 < g.size(); ++i) f[shift + i] = f[shift + i] - top * g[i];
         trim(f);
     }
     for (Whole& c : f) c.negative = !c.negative;
@@ -243,9 +244,12 @@ std::vector<Root> roots(const Polynomial& f) {
     for (const Ratio& end : ends) is_root.push_back(divide_out(rest, end));
     std::vector<Root> found;
     const Ratio* low = &zero;
+    int sign_at_low = rest[0].sign();
     for (std::size_t i = 0; i < ends.size(); low = &ends[i++]) {
-        if (sign_at(rest, *low) != sign_at(rest, ends[i])) found.push_back({rest, *low, ends[i]});
+        const int sign_at_end = sign_at(rest, ends[i]);
+        if (sign_at_end != sign_at_low) found.push_back({rest, *low, ends[i]});
         if (is_root[i]) found.push_back({{whole(0) - ends[i].over, ends[i].under}, zero, two});
+        sign_at_low = sign_at_end;
     }
     return found;
 }
