@@ -9,9 +9,9 @@ from repository import ROOT, files, text_of
 
 # Of C and C++ in src/, of all files elsewhere.
 LINES_OF_FOLDER = {
-    "src": 54300, "src/base": 3575, "src/exact": 2900, "src/shape": 1110, "src/mesh": 3895, "src/reference": 680,
+    "src": 54360, "src/base": 3575, "src/exact": 2900, "src/shape": 1140, "src/mesh": 3895, "src/reference": 680,
     "src/fast": 5415, "src/depth": 3045, "src/query": 2280, "src/cell_size": 5470, "src/surface": 3325,
-    "src/grid": 7770, "src/api": 1220, "src/io": 9715, "src/sim": 1310, "src/dist": 2460, "src/mpi": 180,
+    "src/grid": 7850, "src/api": 1220, "src/io": 9715, "src/sim": 1310, "src/dist": 2460, "src/mpi": 180,
     "tools": 7170, "bench": 10570,
 }
 LINES_OF_DATA = {"docs": 1600}  # drawings and figures of the pages
