@@ -243,7 +243,7 @@ struct ShapeContacts::Search {
     // When a vertex met the shape on its way, and how far it is behind the plane there.
     double meeting(const Vec3d& from, const Vec3d& to, ShapePoint& met) const {
         ShapePoint start;
-        if (shape.look(from, 0, start) && start.is_inside) return no_meeting;
+        if (!shape.is_thin() && shape.look(from, 0, start) && start.is_inside) return no_meeting;
         const double time = shape.meeting(from, to, met);
         if (time <= 1) met.distance = dot(met.normal, (1 - time) * (to - from));
         return time;

@@ -133,6 +133,7 @@ double TriangleShape::meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at
             const double time = convex_meeting(
                 from, to, [&](const Vec3d& p, ShapePoint& out) { look_at(p, triangle, false, out); }, seen);
             if (time > earliest || (time == earliest && first < triangle)) return;
+            if (is_thin() && is_on(from, triangle)) return;
             earliest = time;
             first = triangle;
             at = seen;
@@ -140,18 +141,20 @@ double TriangleShape::meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at
     return first == VOX_NONE ? no_meeting : earliest;
 }
 
-bool TriangleShape::is_on_surface(const Vec3d& p) const {
-    bool is_on = false;
+bool TriangleShape::is_on(const Vec3d& p, std::uint32_t triangle) const noexcept {
+    const ShapeTriangle& t = facets_.triangles[triangle];
+    const Vec3d &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
     std::uint64_t exact_tests = 0;
+    return orientation(a, b, c, p, exact_tests) == 0 &&
+           find_crossing(p, p, a, b, c, exact_tests).kind != CrossingKind::none;
+}
+
+bool TriangleShape::is_on_surface(const Vec3d& p) const {
+    bool found = false;
     facets_.triangle_tree.visit_accepted(
-        [&](const Box3f& box) { return !is_on && contains(box, p); },
-        [&](std::uint32_t triangle) {
-            const ShapeTriangle& t = facets_.triangles[triangle];
-            const Vec3d &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
-            is_on = is_on || (orientation(a, b, c, p, exact_tests) == 0 &&
-                              find_crossing(p, p, a, b, c, exact_tests).kind != CrossingKind::none);
-        });
-    return is_on;
+        [&](const Box3f& box) { return !found && contains(box, p); },
+        [&](std::uint32_t triangle) { found = found || is_on(p, triangle); });
+    return found;
 }
 
 // ---- solid ----------------------------------------------------------------------------------------

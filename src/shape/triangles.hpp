@@ -31,6 +31,7 @@ protected:
 
     // Whether p, which is not on a triangle, is in what the triangles enclose.
     virtual bool encloses(const Vec3d& p) const = 0;
+    bool is_on(const Vec3d& p, std::uint32_t triangle) const noexcept;
     bool is_on_surface(const Vec3d& p) const;
     const Vec3d& corner(const ShapeTriangle& triangle, std::size_t i) const noexcept {
         return facets_.corner(triangle, i);
