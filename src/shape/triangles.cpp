@@ -90,7 +90,7 @@ bool TriangleShape::look(const Vec3d& p, double reach, LookState& state, ShapePo
     const bool is_clear = dot(from_last, from_last) < state.clear * state.clear;
     const bool is_enclosed = is_clear && kind() != VOX_SHAPE_HEIGHTFIELD ? state.is_enclosed : encloses(p),
                is_on = !is_clear && radius_ == 0 && is_on_surface(p);
-    if (!is_enclosed && !is_on && reach + radius_ == 0) return false;
+    if (!is_enclosed && !is_on && (reach + radius_ == 0 || is_far(p, reach))) return false;
     depth::SearchState search;
     search.near = state.near;
     depth::Closest closest;
@@ -102,6 +102,13 @@ bool TriangleShape::look(const Vec3d& p, double reach, LookState& state, ShapePo
     out.is_inside = is_enclosed || is_on || (radius_ > 0 && out.distance <= 0);
     if (is_on) out.distance = 0;
     return out.distance <= reach;
+}
+
+// Whether p is further than `reach` from the bounds, which costs less than a search.
+bool TriangleShape::is_far(const Vec3d& p, double reach) const noexcept {
+    const Vec3d way = p - min(max(p, bounds_.min), bounds_.max);
+    const double far = (reach + 0x1p-48 * largest_coordinate(p)) * (1 + 0x1p-40);
+    return dot(way, way) > far * far;
 }
 
 // Without a triangle near, all points above and below the bounds are inside if one is: terrain has no

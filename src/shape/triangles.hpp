@@ -44,6 +44,7 @@ protected:
 
 private:
     bool look(const Vec3d& p, double reach, LookState& state, ShapePoint& out) const;
+    bool is_far(const Vec3d& p, double reach) const noexcept;
     void look_at(const Vec3d& p, std::uint32_t triangle, bool is_enclosed, ShapePoint& out) const noexcept;
 };
 
