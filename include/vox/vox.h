@@ -658,8 +658,10 @@ static inline vox_shape_desc vox_default_shape_desc(void) {
 VOX_EXPERIMENTAL vox_result vox_shape_insert(vox_grid* grid, const vox_shape_desc* desc, vox_body* out_body);
 
 /* Says where a shape was before. In the following steps it moves from there to its transform, and steps also find
- * IMPACT constraints with it. Each vertex moves through the shape's frame in a straight line, at constant speed. The
- * matrix is as in vox_body_set_transform, and copied; null ends this. Snapshots do not keep it.
+ * IMPACT constraints with it. Each vertex moves through the shape's frame in a straight line, at constant speed. A
+ * vertex that begins in a shape, or on its surface, does not meet it. On a SHEET without a radius it is on neither
+ * side, and may still meet triangles other than those that it begins on. The matrix is as in vox_body_set_transform,
+ * and copied; null ends this. Snapshots do not keep it.
  * Errors: INVALID_ARGUMENT (e.g. a mesh, which has vox_mesh_bind_previous_positions), OUT_OF_MEMORY, BUDGET. */
 VOX_EXPERIMENTAL vox_result vox_shape_set_previous_transform(vox_grid* grid, vox_body body,
                                                              VOX_OPTIONAL const double matrix[12]);

@@ -19,7 +19,7 @@ namespace vox {
 
 namespace {
 
-constexpr std::size_t task_groups = 64; // that are worth a task of their own
+constexpr std::size_t task_groups = 64, task_tiles = 16; // that are worth a task of their own
 
 // More than what a few roundings move a point.
 double rounding_at(const Vec3d& p) noexcept { return 0x1p-48 * largest_coordinate(p); }
@@ -114,17 +114,21 @@ void ShapeContacts::list_tasks(const StepScene& scene, KeptFeatures& kept) {
                 while (carried < runs_.size() && runs_[carried].body_a == body.mesh_id &&
                        runs_[carried].body_b == shape.mesh_id)
                     ++carried;
-                if (first != carried) tasks_.push_back({a, p, first, carried, Does::carry, 0, 0, 0, 0, 0, 0});
+                if (first != carried)
+                    tasks_.push_back({a, p, first, carried, Does::carry, 0, 0, 0, 0, 0, 0, 0, 0});
                 continue;
             }
             for (std::size_t first = 0; first < groups; first += task_groups)
                 tasks_.push_back({a, p, first, std::min(first + task_groups, groups), Does::vertices, moving,
-                                  0, 0, 0, 0, 0});
+                                  0, 0, 0, 0, 0, 0, 0});
             if (!finds_edges_ || !shape.shape->facets() || scene.topologies[a]->triangles.empty() ||
                 !overlap(scene.boxes->bodies[a], box_of(scene, a, placed_[p])))
                 continue;
-            (void)kept.of(scene, a); // which may move those of others
-            tasks_.push_back({a, p, 0, 0, Does::edges, 0, 0, 0, 0, 0, 0});
+            const std::size_t tiles = kept.of(scene, a).tiles.size(); // which may move those of others
+            reserve_growing(tasks_, tasks_.size() + tiles / task_tiles + 1);
+            for (std::size_t first = 0; first < tiles; first += task_tiles)
+                tasks_.push_back(
+                    {a, p, first, std::min(first + task_tiles, tiles), Does::edges, 0, 0, 0, 0, 0, 0, 0, 0});
         }
     }
 }
@@ -239,7 +243,7 @@ struct ShapeContacts::Search {
     // When a vertex met the shape on its way, and how far it is behind the plane there.
     double meeting(const Vec3d& from, const Vec3d& to, ShapePoint& met) const {
         ShapePoint start;
-        if (shape.look(from, 0, start) && start.is_inside) return no_meeting;
+        if (!shape.is_thin() && shape.look(from, 0, start) && start.is_inside) return no_meeting;
         const double time = shape.meeting(from, to, met);
         if (time <= 1) met.distance = dot(met.normal, (1 - time) * (to - from));
         return time;
@@ -276,17 +280,18 @@ struct ShapeContacts::Search {
 // ---- all of them ----------------------------------------------------------------------------------
 
 void ShapeContacts::run(const StepScene& scene, KeptFeatures& kept, Task& task, Worker& out) const {
+    const Array<ShapeEdge>& edges = task.does == Does::edges ? out.crossings.of_mesh : out.edges;
     task.begin_vertex = out.vertices.size();
-    task.begin_edge = out.edges.size();
+    task.begin_edge = edges.size();
+    task.begin_crossing = out.crossings.of_shape.size();
     if (task.does == Does::vertices) {
         Search search(*this, scene, task, out.vertices);
         const Box& all = scene.boxes->bodies[task.body];
         if (search.moves || (overlap(all, search.box) && !search.is_beyond(search.around(all))))
             for (std::size_t g = task.first; g < task.last; ++g) search.search_group(g);
     } else if (task.does == Does::edges) {
-        const Placed& placed = placed_[task.placed];
-        find_shape_edges({scene, task.body, *placed.shape, placed.now, box_of(scene, task.body, placed)},
-                         kept.of(scene, task.body), out.crossings, out.edges);
+        find_shape_edges(pair_of(scene, task), kept.of(scene, task.body), task.first, task.last,
+                         out.crossings);
     } else {
         for (const ShapeRun& from : std::span(runs_).subspan(task.first, task.last - task.first)) {
             reserve_growing(out.vertices, out.vertices.size() + from.vertices.size());
@@ -296,7 +301,42 @@ void ShapeContacts::run(const StepScene& scene, KeptFeatures& kept, Task& task, 
         }
     }
     task.end_vertex = out.vertices.size();
-    task.end_edge = out.edges.size();
+    task.end_edge = edges.size();
+    task.end_crossing = out.crossings.of_shape.size();
+}
+
+ShapePair ShapeContacts::pair_of(const StepScene& scene, const Task& task) const noexcept {
+    const Placed& placed = placed_[task.placed];
+    return {scene, task.body, *placed.shape, placed.now, box_of(scene, task.body, placed)};
+}
+
+// From what the task at `first` and those that follow it have found.
+void ShapeContacts::join_edges(const StepScene& scene, std::size_t first, std::uint32_t worker) {
+    PerWorker<Worker>& workers = workers_[1 - now_];
+    Worker& out = workers[worker];
+    Array<ShapeCrossing>& crossings = out.crossings.of_one_search;
+    crossings.clear();
+    Task& joined = tasks_[first];
+    const std::size_t begin = out.edges.size();
+    std::size_t end = first;
+    do {
+        Task& task = tasks_[end++];
+        const ShapeCrossings& found = workers[task.worker].crossings;
+        const auto of_mesh =
+            std::span(found.of_mesh).subspan(task.begin_edge, task.end_edge - task.begin_edge);
+        reserve_growing(out.edges, out.edges.size() + of_mesh.size());
+        out.edges.insert(out.edges.end(), of_mesh.begin(), of_mesh.end());
+        const auto of_shape =
+            std::span(found.of_shape).subspan(task.begin_crossing, task.end_crossing - task.begin_crossing);
+        reserve_growing(crossings, crossings.size() + of_shape.size());
+        crossings.insert(crossings.end(), of_shape.begin(), of_shape.end());
+        task.begin_edge = task.end_edge = 0;
+    } while (end < tasks_.size() && tasks_[end].does == Does::edges && tasks_[end].first != 0);
+    join_shape_edges(pair_of(scene, joined), crossings, begin, out.edges);
+    joined.worker = worker;
+    joined.begin_vertex = joined.end_vertex = 0;
+    joined.begin_edge = begin;
+    joined.end_edge = out.edges.size();
 }
 
 void ShapeContacts::find(const StepScene& scene, KeptFeatures& kept) {
@@ -308,8 +348,11 @@ void ShapeContacts::find(const StepScene& scene, KeptFeatures& kept) {
     for (Worker& worker : workers) {
         worker.vertices.clear();
         worker.edges.clear();
+        worker.crossings.of_shape.clear();
+        worker.crossings.of_mesh.clear();
     }
-    constexpr std::size_t least_tasks = 8;
+    // Edges are worth more than vertices, most of which are far away.
+    const std::size_t least_tasks = finds_edges_ ? 1 : 8;
     scene.workers->for_ranges(tasks_.size(), least_tasks,
                               [&](std::size_t begin, std::size_t end, std::uint32_t w) {
                                   for (Task& task : std::span(tasks_).subspan(begin, end - begin)) {
@@ -317,6 +360,11 @@ void ShapeContacts::find(const StepScene& scene, KeptFeatures& kept) {
                                       run(scene, kept, task, workers[w]);
                                   }
                               });
+    if (finds_edges_)
+        scene.workers->for_ranges(tasks_.size(), 1, [&](std::size_t begin, std::size_t end, std::uint32_t w) {
+            for (std::size_t i = begin; i < end; ++i)
+                if (tasks_[i].does == Does::edges && tasks_[i].first == 0) join_edges(scene, i, w);
+        });
     workers.level();
     now_ = 1 - now_;
     list_results(scene);
@@ -326,15 +374,19 @@ void ShapeContacts::find(const StepScene& scene, KeptFeatures& kept) {
 
 void ShapeContacts::list_results(const StepScene& scene) {
     const std::size_t last_count = count_;
-    std::size_t vertices = 0, edges = 0;
+    std::size_t vertices = 0, edges = 0, crossings = 0, of_mesh = 0;
     for (const Task& task : tasks_) {
         vertices += task.end_vertex - task.begin_vertex;
         edges += task.end_edge - task.begin_edge;
+        crossings += task.end_crossing - task.begin_crossing;
     }
+    for (Worker& worker : workers_[now_]) of_mesh += worker.crossings.of_mesh.size();
     for (PerWorker<Worker>& workers : workers_) // in a later step, one may find all
         for (Worker& worker : workers) {
             reserve_sparingly(worker.vertices, vertices);
             reserve_sparingly(worker.edges, edges);
+            reserve_sparingly(worker.crossings.of_shape, crossings);
+            reserve_sparingly(worker.crossings.of_mesh, of_mesh);
         }
     count_ = carried_ = 0;
     runs_.clear();

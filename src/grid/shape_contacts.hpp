@@ -107,8 +107,8 @@ private:
         Vec3d centre;
         double radius;
     };
-    // Vertices of groups [first, last) of a mesh, in their order; its edges; or runs [first, last) that are
-    // carried over.
+    // Vertices of groups [first, last) of a mesh, in their order; tiles [first, last) of its surface, of
+    // which the first task has the contacts of all at the end; or runs [first, last) that are carried over.
     enum class Does { vertices, edges, carry };
     struct Task {
         std::uint32_t body, placed;
@@ -117,11 +117,14 @@ private:
         std::size_t first_moving; // of the mesh, in moving_groups_
         std::uint32_t worker;
         std::size_t begin_vertex, end_vertex, begin_edge, end_edge; // in that worker's lists
+        std::size_t begin_crossing, end_crossing;                   // of edges of the shape
     };
     struct Worker {
         explicit Worker(std::pmr::memory_resource* memory)
             : vertices(memory), edges(memory), crossings(memory) {}
-        auto buffers() { return std::tie(vertices, edges, crossings.of_mesh, crossings.of_shape); }
+        auto buffers() {
+            return std::tie(vertices, edges, crossings.of_one_search, crossings.of_shape, crossings.of_mesh);
+        }
 
         Array<ShapeVertex> vertices;
         Array<ShapeEdge> edges;
@@ -133,6 +136,8 @@ private:
     void surround_previous(const StepScene& scene);
     void list_tasks(const StepScene& scene, KeptFeatures& kept);
     void run(const StepScene& scene, KeptFeatures& kept, Task& task, Worker& out) const;
+    void join_edges(const StepScene& scene, std::size_t first, std::uint32_t worker);
+    ShapePair pair_of(const StepScene& scene, const Task& task) const noexcept;
     void list_results(const StepScene& scene);
     Box box_of(const StepScene& scene, std::uint32_t body, const Placed& placed) const noexcept;
     bool has_previous(const StepScene& scene, std::uint32_t body) const noexcept {

@@ -1,5 +1,6 @@
 // Tiles of the mesh that reach the box of the shape are moved into its frame. There their edges look for
-// triangles of the shape in a tree, and their faces for its edges.
+// triangles of the shape in a tree, and their faces for its edges. A tile has all crossings of its own edges;
+// an edge of the shape may pass through faces of many tiles, so its contacts are listed when all are known.
 #include "grid/shape_edges.hpp"
 
 #include "base/boxes.hpp"
@@ -21,25 +22,14 @@ namespace {
 
 class EdgeSearch {
 public:
-    EdgeSearch(const ShapePair& of, const SurfaceFeatures& features, ShapeCrossings& buffers,
-               Array<ShapeEdge>& to)
+    EdgeSearch(const ShapePair& of, const SurfaceFeatures& features, Array<ShapeCrossing>& of_mesh,
+               Array<ShapeCrossing>& of_shape)
         : pair_(of), mesh_(of.scene.bodies[of.body]), facets_(*of.shape.facets()), features_(features),
-          out_(to), of_mesh_(buffers.of_mesh), of_shape_(buffers.of_shape) {
-        of_mesh_.clear();
-        of_shape_.clear();
-    }
+          of_mesh_(of_mesh), of_shape_(of_shape) {}
 
-    void run() {
-        const std::size_t first = out_.size();
-        for (const SurfaceTile& tile : features_.tiles)
+    void run(std::size_t first, std::size_t last) {
+        for (const SurfaceTile& tile : std::span(features_.tiles).subspan(first, last - first))
             if (is_near(tile)) search(tile);
-        list_mesh_edges();
-        list_shape_edges();
-        const auto key = [](const ShapeEdge& c) {
-            return std::tuple(c.vertices[0], c.vertices[1], c.vertices[2], c.count, c.element);
-        };
-        std::sort(out_.begin() + static_cast<std::ptrdiff_t>(first), out_.end(),
-                  [&](const ShapeEdge& a, const ShapeEdge& b) { return key(a) < key(b); });
     }
 
 private:
@@ -140,29 +130,24 @@ private:
             std::swap(corners[1], corners[2]);
         return corners;
     }
-    // Calls visit(crossed, before, after) for the crossings of each edge, with where the one before and the
-    // one after are.
-    template <class Visit>
-    static void for_each_crossing(Array<ShapeCrossing>& all, const Visit& visit) {
-        const auto key = [](const ShapeCrossing& c) {
-            return std::tuple(c.edge, c.at, c.element, c.vertices);
-        };
-        std::sort(all.begin(), all.end(),
-                  [&](const ShapeCrossing& a, const ShapeCrossing& b) { return key(a) < key(b); });
-        for (std::size_t i = 0; i < all.size(); ++i) {
-            const auto is_same_edge = [&](std::size_t j) { return all[j].edge == all[i].edge; };
-            std::size_t before = i, after = i; // on edges, several triangles are met at once
-            while (before > 0 && is_same_edge(before) && all[before].at >= all[i].at) --before;
-            while (after + 1 < all.size() && is_same_edge(after) && all[after].at <= all[i].at) ++after;
-            visit(all[i], is_same_edge(before) && all[before].at < all[i].at ? all[before].at : 0,
-                  is_same_edge(after) && all[after].at > all[i].at ? all[after].at : 1);
-        }
-    }
+
+    const ShapePair& pair_;
+    const Body& mesh_;
+    const ShapeFacets& facets_;
+    const SurfaceFeatures& features_;
+    Array<ShapeCrossing>&of_mesh_, &of_shape_;
+    std::array<Vec3d, SurfaceTile::most_vertices> at_; // of a tile, in the shape's frame
+};
+
+// Makes contacts of crossings.
+class ContactList {
+public:
+    ContactList(const ShapePair& of, Array<ShapeEdge>& to) : pair_(of), out_(to) {}
 
     // An edge of the mesh is as deep as the middle of its part inside the shape. A sheet has no inside: the
     // shorter part of the edge has to leave.
-    void list_mesh_edges() {
-        for_each_crossing(of_mesh_, [&](const ShapeCrossing& c, double before, double after) {
+    void list_mesh_edges(Array<ShapeCrossing>& crossings) {
+        for_each_crossing(crossings, [&](const ShapeCrossing& c, double before, double after) {
             ShapeEdge contact = start(c, 2);
             contact.vertices[0] = c.edge[0];
             contact.vertices[1] = c.edge[1];
@@ -189,9 +174,10 @@ private:
 
     // An edge of the shape, too, but in front of the plane of the face that it passes through: the face has
     // to move that way.
-    void list_shape_edges() {
-        for_each_crossing(of_shape_, [&](const ShapeCrossing& c, double before, double after) {
+    void list_shape_edges(Array<ShapeCrossing>& crossings) {
+        for_each_crossing(crossings, [&](const ShapeCrossing& c, double before, double after) {
             ShapeEdge contact = start(c, 3);
+            contact.edge = c.edge[0];
             std::ranges::copy(c.vertices, contact.vertices);
             std::ranges::copy(c.face_weights, contact.weights);
             const Vec3d way = c.to - c.from;
@@ -200,6 +186,26 @@ private:
             set(contact, VOX_DEPTH_PLANE, std::max(depth, 0.0), -1.0 * c.normal);
             push(contact);
         });
+    }
+
+private:
+    // Calls visit(crossed, before, after) for the crossings of each edge, with where the one before and the
+    // one after are.
+    template <class Visit>
+    static void for_each_crossing(Array<ShapeCrossing>& all, const Visit& visit) {
+        const auto key = [](const ShapeCrossing& c) {
+            return std::tuple(c.edge, c.at, c.element, c.vertices);
+        };
+        std::sort(all.begin(), all.end(),
+                  [&](const ShapeCrossing& a, const ShapeCrossing& b) { return key(a) < key(b); });
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const auto is_same_edge = [&](std::size_t j) { return all[j].edge == all[i].edge; };
+            std::size_t before = i, after = i; // on edges, several triangles are met at once
+            while (before > 0 && is_same_edge(before) && all[before].at >= all[i].at) --before;
+            while (after + 1 < all.size() && is_same_edge(after) && all[after].at <= all[i].at) ++after;
+            visit(all[i], is_same_edge(before) && all[before].at < all[i].at ? all[before].at : 0,
+                  is_same_edge(after) && all[after].at > all[i].at ? all[after].at : 1);
+        }
     }
 
     // At first they only touch.
@@ -222,19 +228,26 @@ private:
     }
 
     const ShapePair& pair_;
-    const Body& mesh_;
-    const ShapeFacets& facets_;
-    const SurfaceFeatures& features_;
     Array<ShapeEdge>& out_;
-    Array<ShapeCrossing>&of_mesh_, &of_shape_;
-    std::array<Vec3d, SurfaceTile::most_vertices> at_; // of a tile, in the shape's frame
 };
 
 } // namespace
 
-void find_shape_edges(const ShapePair& pair, const SurfaceFeatures& features, ShapeCrossings& buffers,
-                      Array<ShapeEdge>& out) {
-    EdgeSearch(pair, features, buffers, out).run();
+void find_shape_edges(const ShapePair& pair, const SurfaceFeatures& features, std::size_t first,
+                      std::size_t last, ShapeCrossings& out) {
+    out.of_one_search.clear();
+    EdgeSearch(pair, features, out.of_one_search, out.of_shape).run(first, last);
+    ContactList(pair, out.of_mesh).list_mesh_edges(out.of_one_search);
+}
+
+void join_shape_edges(const ShapePair& pair, Array<ShapeCrossing>& crossings, std::size_t first,
+                      Array<ShapeEdge>& contacts) {
+    ContactList(pair, contacts).list_shape_edges(crossings);
+    const auto key = [](const ShapeEdge& c) {
+        return std::tuple(c.vertices[0], c.vertices[1], c.vertices[2], c.count, c.element, c.edge);
+    };
+    std::sort(contacts.begin() + static_cast<std::ptrdiff_t>(first), contacts.end(),
+              [&](const ShapeEdge& a, const ShapeEdge& b) { return key(a) < key(b); });
 }
 
 } // namespace vox

@@ -8,6 +8,7 @@
 #include <vox/vox.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory_resource>
 
@@ -17,6 +18,7 @@ namespace vox {
 struct ShapeEdge {
     std::uint32_t count; // vertices
     std::uint32_t element;
+    std::uint32_t edge; // of the shape, if it is one; for the order alone
     std::uint32_t vertices[3];
     vox_depth_state state;
     double weights[3];
@@ -36,11 +38,14 @@ struct ShapeCrossing {
     Vec3d corner, normal; // of the triangle, out of what it belongs to
 };
 
-// Buffers kept from step to step.
+// What searches have found; kept from step to step.
 struct ShapeCrossings {
-    explicit ShapeCrossings(std::pmr::memory_resource* memory) noexcept : of_mesh(memory), of_shape(memory) {}
+    explicit ShapeCrossings(std::pmr::memory_resource* memory) noexcept
+        : of_one_search(memory), of_shape(memory), of_mesh(memory) {}
 
-    Array<ShapeCrossing> of_mesh, of_shape; // of edges of either
+    Array<ShapeCrossing> of_one_search; // the last one
+    Array<ShapeCrossing> of_shape;      // of edges of shapes
+    Array<ShapeEdge> of_mesh;           // contacts of edges of meshes
 };
 
 // A mesh and a shape in one step.
@@ -52,9 +57,14 @@ struct ShapePair {
     Box box; // of floats around the shape, less scene.origin
 };
 
-// Appends the contacts of edges, sorted by vertices and then by element; `features` are those of the mesh.
-// Decided exactly for the places of vertices in the shape's frame.
-void find_shape_edges(const ShapePair& pair, const SurfaceFeatures& features, ShapeCrossings& buffers,
-                      Array<ShapeEdge>& out);
+// Searches tiles [first, last) of the mesh, of which `features` are, and appends what it finds. Decided
+// exactly for the places of vertices in the shape's frame.
+void find_shape_edges(const ShapePair& pair, const SurfaceFeatures& features, std::size_t first,
+                      std::size_t last, ShapeCrossings& out);
+
+// Sorts contacts [first, end) of a pair, all those of edges of the mesh, by vertices and then by element,
+// together with those of all edges of the shape, which pass through faces at `crossings`.
+void join_shape_edges(const ShapePair& pair, Array<ShapeCrossing>& crossings, std::size_t first,
+                      Array<ShapeEdge>& contacts);
 
 } // namespace vox

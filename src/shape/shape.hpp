@@ -58,8 +58,11 @@ public:
                                ShapePoint* out) const;
     // True only if all points within `radius` of `centre` are outside, and further away than `reach`.
     virtual bool is_beyond(const Vec3d& centre, double radius, double reach) const;
+    // A sheet without a radius: what lies on it is on neither side.
+    bool is_thin() const noexcept { return desc_.kind == VOX_SHAPE_SHEET && desc_.radius == 0; }
     // When a point that moves in a straight line, and begins outside, first meets the shape: from 0 to 1 and
-    // never too late, with what it sees there; no_meeting if it never does.
+    // never too late, with what it sees there; no_meeting if it never does. A point that begins on triangles
+    // of a thin one does not meet these.
     virtual double meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at) const;
     // Flat sides, which edges of meshes pass through; null for a shape without.
     virtual const ShapeFacets* facets() const noexcept { return nullptr; }

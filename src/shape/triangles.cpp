@@ -90,7 +90,7 @@ bool TriangleShape::look(const Vec3d& p, double reach, LookState& state, ShapePo
     const bool is_clear = dot(from_last, from_last) < state.clear * state.clear;
     const bool is_enclosed = is_clear && kind() != VOX_SHAPE_HEIGHTFIELD ? state.is_enclosed : encloses(p),
                is_on = !is_clear && radius_ == 0 && is_on_surface(p);
-    if (!is_enclosed && !is_on && reach + radius_ == 0) return false;
+    if (!is_enclosed && !is_on && (reach + radius_ == 0 || is_far(p, reach))) return false;
     depth::SearchState search;
     search.near = state.near;
     depth::Closest closest;
@@ -102,6 +102,13 @@ bool TriangleShape::look(const Vec3d& p, double reach, LookState& state, ShapePo
     out.is_inside = is_enclosed || is_on || (radius_ > 0 && out.distance <= 0);
     if (is_on) out.distance = 0;
     return out.distance <= reach;
+}
+
+// Whether p is further than `reach` from the bounds, which costs less than a search.
+bool TriangleShape::is_far(const Vec3d& p, double reach) const noexcept {
+    const Vec3d way = p - min(max(p, bounds_.min), bounds_.max);
+    const double far = (reach + 0x1p-48 * largest_coordinate(p)) * (1 + 0x1p-40);
+    return dot(way, way) > far * far;
 }
 
 // Without a triangle near, all points above and below the bounds are inside if one is: terrain has no
@@ -133,6 +140,7 @@ double TriangleShape::meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at
             const double time = convex_meeting(
                 from, to, [&](const Vec3d& p, ShapePoint& out) { look_at(p, triangle, false, out); }, seen);
             if (time > earliest || (time == earliest && first < triangle)) return;
+            if (is_thin() && is_on(from, triangle)) return;
             earliest = time;
             first = triangle;
             at = seen;
@@ -140,18 +148,20 @@ double TriangleShape::meeting(const Vec3d& from, const Vec3d& to, ShapePoint& at
     return first == VOX_NONE ? no_meeting : earliest;
 }
 
-bool TriangleShape::is_on_surface(const Vec3d& p) const {
-    bool is_on = false;
+bool TriangleShape::is_on(const Vec3d& p, std::uint32_t triangle) const noexcept {
+    const ShapeTriangle& t = facets_.triangles[triangle];
+    const Vec3d &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
     std::uint64_t exact_tests = 0;
+    return orientation(a, b, c, p, exact_tests) == 0 &&
+           find_crossing(p, p, a, b, c, exact_tests).kind != CrossingKind::none;
+}
+
+bool TriangleShape::is_on_surface(const Vec3d& p) const {
+    bool found = false;
     facets_.triangle_tree.visit_accepted(
-        [&](const Box3f& box) { return !is_on && contains(box, p); },
-        [&](std::uint32_t triangle) {
-            const ShapeTriangle& t = facets_.triangles[triangle];
-            const Vec3d &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
-            is_on = is_on || (orientation(a, b, c, p, exact_tests) == 0 &&
-                              find_crossing(p, p, a, b, c, exact_tests).kind != CrossingKind::none);
-        });
-    return is_on;
+        [&](const Box3f& box) { return !found && contains(box, p); },
+        [&](std::uint32_t triangle) { found = found || is_on(p, triangle); });
+    return found;
 }
 
 // ---- solid ----------------------------------------------------------------------------------------

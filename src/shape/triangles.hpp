@@ -31,6 +31,7 @@ protected:
 
     // Whether p, which is not on a triangle, is in what the triangles enclose.
     virtual bool encloses(const Vec3d& p) const = 0;
+    bool is_on(const Vec3d& p, std::uint32_t triangle) const noexcept;
     bool is_on_surface(const Vec3d& p) const;
     const Vec3d& corner(const ShapeTriangle& triangle, std::size_t i) const noexcept {
         return facets_.corner(triangle, i);
@@ -43,6 +44,7 @@ protected:
 
 private:
     bool look(const Vec3d& p, double reach, LookState& state, ShapePoint& out) const;
+    bool is_far(const Vec3d& p, double reach) const noexcept;
     void look_at(const Vec3d& p, std::uint32_t triangle, bool is_enclosed, ShapePoint& out) const noexcept;
 };
 

@@ -219,6 +219,57 @@ START_TEST(needle_through_a_block) {
 }
 END_TEST
 
+/* A needle through a ball of some thousand faces, which several tasks search: one finds where it enters,
+ * another where it leaves. Any number of workers finds the same. */
+START_TEST(needle_through_many_faces) {
+    body ball = make_lattice_ball(&five_cut, 10, 9.7);
+    const double positions[12] = {0.3, 0.4, -50, 0.3, 0.4, 50, 2.3, -50, 0.2, 2.3, 50, 0.2};
+    const uint32_t segments[6] = {0, 1, 1, 2, 3, 3};
+    vox_shape_desc needles = vox_default_shape_desc();
+    kept_constraints first = {NULL, 0};
+    needles.kind = VOX_SHAPE_SHEET;
+    needles.positions = vox_double_positions(positions, 4);
+    needles.triangles = segments;
+    needles.triangle_count = 2;
+    for (uint32_t workers = 1; workers <= 4; ++workers) {
+        vox_grid_desc of_grid = engine_desc();
+        of_grid.flags = VOX_GRID_EDGES | VOX_GRID_CONSTRAINTS;
+        of_grid.worker_count = workers;
+        vox_grid* grid = grid_of(&of_grid);
+        const vox_mesh_desc desc = body_desc(&ball);
+        vox_body id;
+        insert_mesh(grid, &desc);
+        ck_ok(vox_shape_insert(grid, &needles, &id));
+        (void)insert_blade(grid, 5);
+        ck_ok(vox_grid_step(grid));
+        if (workers == 1)
+            first = keep_constraints(grid);
+        else
+            same_constraints(grid, &first);
+        const vox_constraint_view all = constraints_of(grid);
+        double ends[2][2] = {{0, 0}, {0, 0}}; /* of each needle in the ball */
+        for (int pass = 0; pass < 2; ++pass)
+            for (uint64_t i = 0; i < all.count; ++i) {
+                const vox_constraint* c = all.data + i;
+                if (c->body_b != id) continue;
+                const int one = (int)c->element_b;
+                const double at = c->position[one == 0 ? 2 : 1];
+                ck_assert_uint_eq(c->count_a, 3);
+                if (pass == 0)
+                    ends[one][at > 0] = at;
+                else
+                    ck_assert_double_eq_tol(
+                        c->gap, -0.5 * (ends[one][1] - ends[one][0]) * fabs(c->normal[one == 0 ? 2 : 1]),
+                        1e-9);
+            }
+        for (int one = 0; one < 2; ++one) ck_assert(ends[one][0] < -5 && ends[one][1] > 5);
+        vox_grid_destroy(grid);
+    }
+    free(first.data);
+    free_body(&ball);
+}
+END_TEST
+
 /* ---- life --------------------------------------------------------------------------------------------- */
 
 /* Edges at rest are carried over, with or without other meshes that move. */
@@ -327,8 +378,8 @@ START_TEST(snapshots_of_shapes) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_each(tests, solid_as_mesh, blade_through_a_ball, needle_through_a_block, at_rest,
-                   snapshots_of_shapes);
+    tcase_add_each(tests, solid_as_mesh, blade_through_a_ball, needle_through_a_block,
+                   needle_through_many_faces, at_rest, snapshots_of_shapes);
 }
 
 SUITE(shape_edges) { add_for_each_engine(suite, add_tests); }

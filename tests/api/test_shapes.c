@@ -474,24 +474,38 @@ START_TEST(in_out_and_around) {
 }
 END_TEST
 
-/* A vertex closer to one triangle than rounding errors leaves that one, and goes through another. */
+/* A vertex on one triangle, or closer to it than rounding errors, leaves that one, and goes through another.
+ */
 START_TEST(leaves_and_goes_through) {
     static const double corners[18] = {-1, -1, 0, 1, -1, 0, 0, 1, 0, -1, -1, 1, 1, -1, 1, 0, 1, 1};
     static const uint32_t triangles[6] = {0, 1, 2, 3, 4, 5};
-    static const double from[3] = {0, 0, 1e-18}, to[3] = {0, 0, 2};
+    static const struct {
+        double from[3], to_z;
+        double time; /* -1: it meets nothing */
+        uint32_t triangle;
+    } all[] = {{{0, 0, 1e-18}, 2, 0.5, 1}, {{0, 0, 1e-18}, -2, 0, 0}, {{0, 0, 0}, 2, 0.5, 1},
+               {{0, 0, 0}, 0.75, -1, 0},   {{0, 0, 0}, -2, -1, 0},    {{0, -1, 0}, 2, 0.5, 1},
+               {{0, -1, 0}, -2, -1, 0},    {{-1, -1, 0}, 2, 0.5, 1},  {{-1, -1, 0}, -2, -1, 0},
+               {{0, 0, 1}, -1, 0.5, 0},    {{0, 0, 1}, 2, -1, 0}};
     const vox_shape_desc sheet = triangle_shape(VOX_SHAPE_SHEET, corners, 6, triangles, 2);
-    vox_grid* grid = constraint_grid();
-    (void)insert_shape(grid, &sheet);
-    const vox_body points = insert_points(grid, to, 1);
-    ck_ok(bind_previous_array(grid, points, from, VOX_FORMAT_DOUBLE, 0, 0));
-    ck_ok(vox_grid_step(grid));
-    ck_assert_uint_eq(constraints_of(grid).count, 1);
-    const vox_constraint* c = &constraints_of(grid).data[0];
-    ck_assert_int_eq(c->kind, VOX_CONSTRAINT_IMPACT);
-    ck_assert_double_eq_tol(c->time, 0.5, 1e-12);
-    ck_assert_double_eq_tol(c->gap, -1, 1e-12);
-    ck_assert_uint_eq(c->element_b, 1);
-    vox_grid_destroy(grid);
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) {
+        const double* const from = all[i].from;
+        const double to[3] = {from[0], from[1], all[i].to_z};
+        vox_grid* grid = constraint_grid();
+        (void)insert_shape(grid, &sheet);
+        const vox_body points = insert_points(grid, to, 1);
+        ck_ok(bind_previous_array(grid, points, from, VOX_FORMAT_DOUBLE, 0, 0));
+        ck_ok(vox_grid_step(grid));
+        ck_assert_msg(constraints_of(grid).count == (all[i].time >= 0), "case %zu", i);
+        if (all[i].time >= 0) {
+            const vox_constraint* c = &constraints_of(grid).data[0];
+            ck_assert_int_eq(c->kind, VOX_CONSTRAINT_IMPACT);
+            ck_assert_double_eq_tol(c->time, all[i].time, 1e-12);
+            ck_assert_double_eq_tol(c->gap, -(1 - all[i].time) * fabs(to[2] - from[2]), 1e-12);
+            ck_assert_uint_eq(c->element_b, all[i].triangle);
+        }
+        vox_grid_destroy(grid);
+    }
 }
 END_TEST
 

@@ -9,9 +9,9 @@ from repository import ROOT, files, text_of
 
 # Of C and C++ in src/, of all files elsewhere.
 LINES_OF_FOLDER = {
-    "src": 57520, "src/base": 3590, "src/exact": 3170, "src/shape": 1110, "src/mesh": 3895, "src/reference": 680,
+    "src": 57640, "src/base": 3590, "src/exact": 3185, "src/shape": 1140, "src/mesh": 3895, "src/reference": 680,
     "src/fast": 5415, "src/depth": 3045, "src/query": 2280, "src/cell_size": 5470, "src/surface": 3325,
-    "src/grid": 7770, "src/api": 1220, "src/io": 9715, "src/sim": 2225, "src/dist": 2460, "src/mpi": 180, "src/gpu": 2035,
+    "src/grid": 7850, "src/api": 1220, "src/io": 9715, "src/sim": 2225, "src/dist": 2460, "src/mpi": 180, "src/gpu": 2035,
     "tools": 7390, "bench": 11080,
 }
 LINES_OF_DATA = {"docs": 1600}  # drawings and figures of the pages

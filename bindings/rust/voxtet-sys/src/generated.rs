@@ -1966,9 +1966,11 @@ extern "C" {
         out_body: *mut vox_body,
     ) -> vox_result;
     /// Says where a shape was before. In the following steps it moves from there to its transform, and steps also find
-    /// IMPACT constraints with it. Each vertex moves through the shape's frame in a straight line, at constant speed.
-    /// The matrix is as in vox_body_set_transform, and copied; null ends this. Snapshots do not keep it. Errors:
-    /// INVALID_ARGUMENT (e.g. a mesh, which has vox_mesh_bind_previous_positions), OUT_OF_MEMORY, BUDGET.
+    /// IMPACT constraints with it. Each vertex moves through the shape's frame in a straight line, at constant speed. A
+    /// vertex that begins in a shape, or on its surface, does not meet it. On a SHEET without a radius it is on neither
+    /// side, and may still meet triangles other than those that it begins on. The matrix is as in
+    /// vox_body_set_transform, and copied; null ends this. Snapshots do not keep it. Errors: INVALID_ARGUMENT (e.g. a
+    /// mesh, which has vox_mesh_bind_previous_positions), OUT_OF_MEMORY, BUDGET.
     pub fn vox_shape_set_previous_transform(
         grid: *mut vox_grid,
         body: vox_body,
