@@ -118,6 +118,7 @@ class Constraints(Records):
     user_data_b: NDArray[np.uint64]
     pair: NDArray[np.uint32]
     previous: NDArray[np.uint32]
+    left_out: NDArray[np.uint64]
 
     def rows(self, offsets: Mapping[Any, int], columns: Optional[int] = None) -> Jacobian:
         """The derivative of `gap` by all coordinates, a row for each constraint. offsets: for each mesh, by its id or as a Mesh,

@@ -163,9 +163,7 @@ impl Locator {
         options: QueryOptions,
     ) -> Result<Vec<ClosestHit>> {
         let (begins, ends, desc) = (positions_to_c(from), positions_to_c(to), options.to_c());
-        each(from.len(), |out| unsafe {
-            sys::vox_locator_find_closest_to_segments(self.0, &begins, &ends, &desc, out)
-        })
+        each(from.len(), |out| unsafe { sys::vox_locator_find_closest_to_segments(self.0, &begins, &ends, &desc, out) })
     }
 
     /// The tetrahedra that triangles meet, each of three corners, which move to those in `to`; sorted by
