@@ -25,7 +25,7 @@ static class Step
         for (int b = 0; b < bodies; ++b) positions += 16 * tetCounts[b];
         using (var grid = new Grid())
         {
-            var meshes = new Mesh[bodies];
+            var meshes = new Body[bodies];
             at = positions;
             for (int b = 0; b < bodies; ++b)
             {
