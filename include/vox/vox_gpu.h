@@ -39,8 +39,9 @@ static inline vox_gpu_desc vox_default_gpu_desc(void) {
 
 /* Reads the meshes of `count` grids: tetrahedra, filters and, for tiles and cells, the positions that they have now. Grid
  * i is scene i; bodies of different scenes never collide. Grids are not needed afterwards, and later changes of them are
- * not seen, nor are pairs that vox_grid_set_pair_enabled disabled: use filters. The caller owns *out_gpu and releases it
- * with vox_gpu_destroy.
+ * not seen. Nor are pairs that vox_grid_set_pair_enabled disabled, for which filters do, and vertices that
+ * vox_mesh_remove_vertices removed, which still have contacts. The caller owns *out_gpu and releases it with
+ * vox_gpu_destroy.
  * Errors: UNSUPPORTED (what a mesh has, or no GPU), INVALID_STATE (a mesh without positions), LIMIT, BUDGET,
  * OUT_OF_MEMORY. */
 VOX_EXPERIMENTAL vox_result vox_gpu_create(VOX_OPTIONAL const vox_gpu_desc* desc, const vox_grid* const* grids,
@@ -51,16 +52,12 @@ VOX_EXPERIMENTAL void vox_gpu_destroy(VOX_OPTIONAL vox_gpu* gpu);
 
 /* Borrows positions on the device, one for each vertex: scene by scene, mesh by mesh in ascending order. Steps read them.
  * Packed ones are read in place, others are copied in each step.
- * Errors: INVALID_ARGUMENT (another count), UNSUPPORTED (doubles; columns). */
+ * Errors: INVALID_ARGUMENT (another count), UNSUPPORTED (doubles; columns); BUDGET, OUT_OF_MEMORY (the copy). */
 VOX_EXPERIMENTAL vox_result vox_gpu_bind_positions(vox_gpu* gpu, const vox_positions* positions);
-
-/* Borrows the positions of one mesh of a scene. Steps copy them.
- * Errors: as vox_gpu_bind_positions; INVALID_HANDLE; BUDGET and OUT_OF_MEMORY the first time. */
-VOX_EXPERIMENTAL vox_result vox_gpu_bind_mesh(vox_gpu* gpu, uint64_t scene, vox_body body, const vox_positions* positions);
 
 /* Enqueues a step: finds all contacts of the positions as they are when the stream comes to it. Never waits, allocates
  * nothing, and may be captured into a CUDA graph, which stays good until positions are bound or vox_gpu_finish fails.
- * Errors: INVALID_STATE (a mesh without positions), INTERNAL (CUDA's text). */
+ * Errors: INVALID_STATE (no positions were bound), INTERNAL (CUDA's text). */
 VOX_EXPERIMENTAL vox_result vox_gpu_step(vox_gpu* gpu, VOX_OPTIONAL void* stream);
 
 /* Why a step has no contacts. */

@@ -71,22 +71,6 @@ vox_result vox_gpu_bind_positions(vox_gpu* gpu, const vox_positions* positions) 
     });
 }
 
-vox_result vox_gpu_bind_mesh(vox_gpu* gpu, uint64_t scene, vox_body body, const vox_positions* positions) {
-    return border(gpu, "gpu", [&] {
-        const std::vector<u32>& first = gpu->pipeline.first_body();
-        const std::vector<BodyOfScene>& bodies = gpu->pipeline.bodies();
-        if (scene >= first.size() - 1)
-            refuse(format("scene is %llu of %zu", static_cast<unsigned long long>(scene), first.size() - 1));
-        const auto begin = bodies.begin() + first[scene], end = bodies.begin() + first[scene + 1];
-        const auto at = std::find_if(begin, end, [body](const BodyOfScene& b) { return b.id == body; });
-        if (at == end)
-            throw Error(VOX_ERROR_INVALID_HANDLE, format("body %u is no mesh of scene %llu", body,
-                                                         static_cast<unsigned long long>(scene)));
-        const u64 stride = checked_positions(positions, at->vertex_count);
-        gpu->pipeline.bind_body(static_cast<u32>(at - bodies.begin()), positions->data, stride);
-    });
-}
-
 vox_result vox_gpu_step(vox_gpu* gpu, void* stream) {
     return border(gpu, "gpu", [&] { gpu->pipeline.step(stream); });
 }

@@ -189,24 +189,27 @@ VOX_HD void atomic_or(u32* at, u32 bits) {
     __atomic_fetch_or(at, bits, __ATOMIC_RELAXED);
 #endif
 }
+#if !defined(__CUDA_ARCH__)
+template <class IsBetter>
+void replace_while(u32* at, u32 value, const IsBetter& is_better) {
+    u32 was = __atomic_load_n(at, __ATOMIC_RELAXED);
+    while (is_better(value, was) &&
+           !__atomic_compare_exchange_n(at, &was, value, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
+    }
+}
+#endif
 VOX_HD void atomic_lowest(u32* at, u32 value) {
 #if defined(__CUDA_ARCH__)
     atomicMin(at, value);
 #else
-    u32 was = __atomic_load_n(at, __ATOMIC_RELAXED);
-    while (value < was &&
-           !__atomic_compare_exchange_n(at, &was, value, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
-    }
+    replace_while(at, value, [](u32 a, u32 b) { return a < b; });
 #endif
 }
 VOX_HD void atomic_highest(u32* at, u32 value) {
 #if defined(__CUDA_ARCH__)
     atomicMax(at, value);
 #else
-    u32 was = __atomic_load_n(at, __ATOMIC_RELAXED);
-    while (value > was &&
-           !__atomic_compare_exchange_n(at, &was, value, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
-    }
+    replace_while(at, value, [](u32 a, u32 b) { return a > b; });
 #endif
 }
 

@@ -9,9 +9,7 @@ namespace vox::gpu {
 
 Pipeline::Pipeline(std::unique_ptr<Backend> backend, const SceneData& data, const StepRooms& rooms,
                    u64 byte_budget)
-    : backend_(std::move(backend)), byte_budget_(byte_budget), bodies_(data.bodies),
-      first_body_(data.first_body) {
-    for (const CellsOfBody& cells : data.cells) takes_part_.push_back(cells.scene != none);
+    : backend_(std::move(backend)), byte_budget_(byte_budget), bodies_(data.bodies) {
     try {
         SceneArrays& s = arrays_;
         s.vertex_count = data.vertex_count;
@@ -117,31 +115,16 @@ void Pipeline::make_lists(const StepRooms& rooms) {
 }
 
 void Pipeline::bind(const void* positions, u64 byte_stride) {
-    if (byte_stride == 3 * sizeof(float)) {
-        arrays_.positions = static_cast<const float*>(positions);
-        arrays_.gathers = false;
-        return;
-    }
-    for (u32 b = 0; b < bodies_.size(); ++b)
-        bind_body(b, static_cast<const char*>(positions) + bodies_[b].first_vertex * byte_stride,
-                  byte_stride);
-}
-
-void Pipeline::bind_body(u32 body, const void* positions, u64 byte_stride) {
-    if (!arrays_.gathered) make(arrays_.gathered, 3 * u64{arrays_.vertex_count});
-    BodyOfScene& b = bodies_[body];
-    b.positions = static_cast<const char*>(positions);
-    b.byte_stride = byte_stride;
-    backend_->write(const_cast<BodyOfScene*>(arrays_.bodies) + body, &b, sizeof b);
-    arrays_.positions = arrays_.gathered;
-    arrays_.gathers = true;
+    arrays_.gathers = byte_stride != 3 * sizeof(float);
+    if (arrays_.gathers && !arrays_.gathered) make(arrays_.gathered, 3 * u64{arrays_.vertex_count});
+    arrays_.source = static_cast<const char*>(positions);
+    arrays_.byte_stride = byte_stride;
+    arrays_.positions = arrays_.gathers ? arrays_.gathered : static_cast<const float*>(positions);
 }
 
 void Pipeline::step(void* stream) {
-    for (u32 b = 0; b < bodies_.size() && (arrays_.gathers || !arrays_.positions); ++b)
-        if (takes_part(b) && bodies_[b].vertex_count && !(arrays_.gathers && bodies_[b].positions))
-            throw Error(VOX_ERROR_INVALID_STATE,
-                        format("body %u has no positions on the device", bodies_[b].id));
+    if (!arrays_.positions && arrays_.vertex_count)
+        throw Error(VOX_ERROR_INVALID_STATE, "the scenes have no positions on the device");
     backend_->step(arrays_, stream);
 }
 

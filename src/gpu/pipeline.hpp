@@ -23,9 +23,8 @@ public:
     Pipeline(const Pipeline&) = delete;
     Pipeline& operator=(const Pipeline&) = delete;
 
-    // Positions on the device, borrowed: of all bodies, or of one.
+    // Positions on the device, borrowed.
     void bind(const void* positions, u64 byte_stride);
-    void bind_body(u32 body, const void* positions, u64 byte_stride);
 
     // Throws Error(INVALID_STATE) for a body without positions. Allocates nothing.
     void step(void* stream);
@@ -34,7 +33,6 @@ public:
 
     const SceneArrays& arrays() const noexcept { return arrays_; }
     const std::vector<BodyOfScene>& bodies() const noexcept { return bodies_; }
-    const std::vector<u32>& first_body() const noexcept { return first_body_; }
     u64 bytes() const noexcept { return bytes_; }
     Backend& backend() noexcept { return *backend_; }
 
@@ -51,15 +49,12 @@ private:
     void make(T*& array, u64 count);
     void make_lists(const StepRooms& rooms);
     void make_work(u64 bricks);
-    bool takes_part(u32 body) const { return takes_part_[body]; }
 
     std::unique_ptr<Backend> backend_;
     u64 byte_budget_, bytes_ = 0;
     std::vector<Block> blocks_;
     SceneArrays arrays_{};
     std::vector<BodyOfScene> bodies_;
-    std::vector<u32> first_body_;
-    std::vector<bool> takes_part_;
 };
 
 } // namespace vox::gpu

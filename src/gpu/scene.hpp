@@ -29,8 +29,6 @@ struct BodyOfScene {
     u32 first_of_scene, end_of_scene;              // bodies of its scene
     bool self_collision;
     PairFilter filter;
-    const char* positions; // for Gather
-    u64 byte_stride;
 };
 
 struct FloatBox {
@@ -68,7 +66,7 @@ struct SceneArrays {
     // What does not change between two updates.
     u32 vertex_count, tile_count, body_count, scene_count;
     bool any_filter; // else bodies of one scene collide
-    bool gathers;    // positions of bodies come from arrays of their own
+    bool gathers;    // positions are not packed
     const BodyOfScene* bodies;
     const CellsOfBody* cells;
     const u32* first_body;  // of each scene, and the end
@@ -81,7 +79,9 @@ struct SceneArrays {
     u32 brick_mask;           // bricks of 4 x 4 x 4 cells, less 1
 
     const float* positions; // x y z of all vertices
-    float* gathered;        // the same place, where there is a gather
+    float* gathered;        // the same place, where there is a gather: from `source`
+    const char* source;
+    u64 byte_stride;
 
     // What a step writes.
     FloatBox* boxes;                 // of tiles

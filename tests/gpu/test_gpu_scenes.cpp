@@ -208,25 +208,18 @@ START_TEST(parts_of_scenes) {
 }
 END_TEST
 
-START_TEST(arrays_of_bodies) {
+START_TEST(records) {
     OwnedGrid g({ball(2, 1), ball(2, 2, 1, 1, 1)});
     ck_ok(vox_grid_step(g.grid));
     HostScenes scenes({g.grid}, orders[2]);
     scenes.bind();
-    // With records of 16 bytes: all bodies, then one by one.
+    // With records of 16 bytes.
     const std::vector<float> packed = scenes.packed();
     std::vector<float> wide(packed.size() / 3 * 4, std::numeric_limits<float>::quiet_NaN());
     for (std::size_t i = 0; i < packed.size(); ++i) wide[i / 3 * 4 + i % 3] = packed[i];
     scenes.pipeline().bind(wide.data(), 16);
     ck_assert_uint_eq(scenes.step().faults, 0);
     check_contacts(expected_contacts(g.grid), scenes.contacts(0), "records");
-    std::vector<float> second(wide.begin() + 4 * g.all[0].vertex_count, wide.end());
-    scenes.pipeline().bind_body(1, second.data(), 16);
-    wide.resize(4 * g.all[0].vertex_count);
-    wide.shrink_to_fit();
-    scenes.pipeline().bind_body(0, wide.data(), 16);
-    ck_assert_uint_eq(scenes.step().faults, 0);
-    check_contacts(expected_contacts(g.grid), scenes.contacts(0), "arrays of bodies");
 }
 END_TEST
 
@@ -335,5 +328,5 @@ END_TEST
 SUITE(gpu_scenes) {
     TCase* tests = add_case(suite, "scenes");
     tcase_add_each(tests, touching_in_every_way, slivers, sizes, cells, small_scenes, many_scenes, filters,
-                   parts_of_scenes, arrays_of_bodies, not_finite, every_room, refusals);
+                   parts_of_scenes, records, not_finite, every_room, refusals);
 }

@@ -26,15 +26,13 @@ struct Clear {
     }
 };
 
-// Over vertices, where bodies have arrays of their own.
+// Over vertices, where positions are not packed.
 struct Gather {
     SceneArrays s;
 
     VOX_HD void operator()(u32 v) const {
-        const BodyOfScene& body = s.bodies[s.vertex_body[v]];
         if (s.cells[s.vertex_body[v]].scene == none) return;
-        const auto* from =
-            reinterpret_cast<const float*>(body.positions + (v - body.first_vertex) * body.byte_stride);
+        const auto* from = reinterpret_cast<const float*>(s.source + v * s.byte_stride);
         for (u32 a = 0; a < 3; ++a) s.gathered[3 * static_cast<std::size_t>(v) + a] = from[a];
     }
 };
