@@ -63,6 +63,16 @@ def grid_hash(data):
     return value.value
 
 
+def contact_forces(m, d):
+    """What the plugin adds to the passive forces of dofs that are sliders: a row for three of them."""
+    mujoco.mj_forward(m, d)
+    both = d.qfrc_passive.copy()
+    m.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONTACT
+    mujoco.mj_forward(m, d)
+    m.opt.disableflags = 0
+    return (both - d.qfrc_passive).reshape(-1, 3)
+
+
 def vertices(m, d, name):
     flex_id = mujoco.mj_name2id(m, mujoco.mjtObj.mjOBJ_FLEX, name)
     first = m.flex_vertadr[flex_id]
@@ -112,11 +122,7 @@ class TwoBodies(unittest.TestCase):
         m = overlapping()
         d = mujoco.MjData(m)
         d.qvel[:] = np.random.default_rng(1).normal(size=m.nv) * 0.01
-        mujoco.mj_forward(m, d)
-        with_plugin = d.qfrc_passive.copy()
-        m.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONTACT
-        mujoco.mj_forward(m, d)
-        force = (with_plugin - d.qfrc_passive).reshape(-1, 3)  # dofs are those of the vertices, in their order
+        force = contact_forces(m, d)  # dofs are those of the vertices, in their order
         greatest = abs(force).sum()
         self.assertGreater(greatest, 0)
         self.assertLess(abs(force.sum(axis=0)).max(), 1e-12 * greatest)
@@ -179,20 +185,10 @@ class Nodes(unittest.TestCase):
             rng = np.random.default_rng(5)
             d.qpos[:] = 0.004 * rng.normal(size=m.nv)
             d.qvel[:] = 0.3 * rng.normal(size=m.nv)
-            m.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONTACT
-            mujoco.mj_forward(m, d)
-            alone = d.qfrc_passive.copy()
-            m.opt.disableflags = 0
-            mujoco.mj_forward(m, d)
-            forces = (d.qfrc_passive - alone).reshape(-1, 3)
+            forces = contact_forces(m, d)
             of_vertices.qpos[:] = (d.flexvert_xpos - start).ravel()
             of_vertices.qvel[:] = (weights @ d.qvel.reshape(-1, 3)).ravel()
-            full.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONTACT
-            mujoco.mj_forward(full, of_vertices)
-            alone = of_vertices.qfrc_passive.copy()
-            full.opt.disableflags = 0
-            mujoco.mj_forward(full, of_vertices)
-            vertex_forces = (of_vertices.qfrc_passive - alone).reshape(-1, 3)
+            vertex_forces = contact_forces(full, of_vertices)
             self.assertGreater(abs(vertex_forces).max(), 0.1, (dof, cells))
             np.testing.assert_allclose(forces, weights.T @ vertex_forces, rtol=0, atol=1e-8 * abs(vertex_forces).max())
 

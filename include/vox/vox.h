@@ -819,7 +819,8 @@ VOX_API vox_result vox_grid_save(const vox_grid* grid, VOX_OPTIONAL void* bytes,
 
 /* Creates a grid from a snapshot. Ids name the same bodies, and steps give the same results. Meshes own their
  * positions; map or bind positions to move them. desc supplies what snapshots do not contain; its flags, cell_size
- * and max_constraints_per_pair are ignored. The bytes need not be trusted. The caller owns *out_grid and releases it with vox_grid_destroy.
+ * and max_constraints_per_pair are ignored. The bytes need not be trusted. The caller owns *out_grid and releases it
+ * with vox_grid_destroy.
  * Errors: FORMAT (names the place), UNSUPPORTED (a later version), INVALID_ARGUMENT, LIMIT, BUDGET, OUT_OF_MEMORY. */
 VOX_API vox_result vox_grid_load(const void* bytes, uint64_t size, VOX_OPTIONAL const vox_grid_desc* desc,
                                  vox_grid** out_grid);

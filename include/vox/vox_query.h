@@ -243,8 +243,8 @@ VOX_EXPERIMENTAL vox_result vox_locator_find_tracks(const vox_locator* locator, 
  * than its radius. out_hits[i] is for the closed segment from from[i] to to[i], as for a point: `position` is the point
  * of the surface that is closest to the segment. If the segment meets the surface, which is exact, the distance is 0.
  * `inside` and the sign say where from[i] is: put the tip of a tool there, and ask vox_locator_find_closest how deep it
- * is. Segments that are close together should follow each other. Errors: as
- * vox_locator_find_closest, and INVALID_ARGUMENT (arrays of different lengths). */
+ * is. Segments that are close together should follow each other. Errors: as vox_locator_find_closest, and
+ * INVALID_ARGUMENT (arrays of different lengths). */
 VOX_EXPERIMENTAL vox_result vox_locator_find_closest_to_segments(const vox_locator* locator, const vox_positions* from,
                                                                  const vox_positions* to,
                                                                  VOX_OPTIONAL const vox_query_desc* desc,
