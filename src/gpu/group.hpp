@@ -191,7 +191,7 @@ VOX_HD void atomic_or(u32* at, u32 bits) {
 }
 #if !defined(__CUDA_ARCH__)
 template <class IsBetter>
-void replace_while(u32* at, u32 value, const IsBetter& is_better) {
+VOX_HD void replace_while(u32* at, u32 value, const IsBetter& is_better) {
     u32 was = __atomic_load_n(at, __ATOMIC_RELAXED);
     while (is_better(value, was) &&
            !__atomic_compare_exchange_n(at, &was, value, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
